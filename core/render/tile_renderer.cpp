@@ -311,16 +311,17 @@ void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worke
   const int ofReflections = emitters.PlacesForReflections(sample.pixel, raysIn);
   const bool isReflected = ofReflections > 1;
   const int places = std::max(emitters.PlacesIn(sample.pixel), ofReflections);
-  if (places == 1) return;
+  const auto tiny = emitters.Tiny().In(sample.pixel);
+  if (places == 1 && tiny.empty()) return;
   RayCounters* const rays = &worker->totals.rays;
   const auto lightAlong = [&](const RayDifferential& ray) {
-    return isReflected ? emitters.AllAlong(ray, sample.context, rays)
-                       : EmittedLight{emitters.FirstAlong(ray), {}};
+    return isReflected ? emitters.AllAlong(ray, sample.context, rays) : emitters.FirstAlong(ray);
   };
   const EmittedLight own = lightAlong(sample.ray);
   EmittedLight mean;
-  mean.Add(own, Real(1) / Real(places));
-  bool isEdge = false;
+  mean.first = TinyLight(sample, worker);
+  mean.Add(emitters.Tiny().Without(tiny, own), Real(1) / Real(places));
+  bool isEdge = !tiny.empty();
   for (int i = 1; i < places; ++i) {
     const FilterSample filter =
         job_.filter.Sample(StillEmitters::Place(worker->samples.film, i, places));
@@ -328,12 +329,33 @@ void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worke
         lightAlong(CameraRay(PlaceOf(sample.pixel, filter), worker->samples));
     if (!isReflected) rays->Count(RayKind::Camera);
     isEdge = isEdge || !other.HasSameColors(own);
-    mean.Add(other, filter.weight / (Real(places) * sample.filter.weight));
+    mean.Add(emitters.Tiny().Without(tiny, other),
+             filter.weight / (Real(places) * sample.filter.weight));
   }
   if (!isEdge) return;
   Replace(own.first + own.specular, mean.first + mean.specular, L);
   Replace(own.first, mean.first, &aovs->emission);
   Replace(own.specular, mean.specular, &aovs->specular);
+}
+
+Spectrum TileRenderer::TinyLight(const TracedSample& sample, RenderWorker* worker) const {
+  const TinyEmitters& emitters = target_.stillEmitters->Tiny();
+  const Point2 centre = PlaceOf(sample.pixel, {{}, 1});
+  Spectrum light;
+  for (const TinyEmitters::InPixel& one : emitters.In(sample.pixel)) {
+    const TinyEmitters::Emitter& emitter = emitters[one];
+    const FilmBox box = emitters.BoxIn(emitter, centre);
+    const Real area = Real(box.IsEmpty() ? 0 : box.Area()) / Real(emitter.places);
+    for (int i = 0; area > 0 && i < emitter.places; ++i) {
+      const Point2 place = box.At(StillEmitters::Place(worker->samples.film, i, emitter.places));
+      worker->totals.rays.Count(RayKind::Camera);
+      const EmittedLight seen =
+          target_.stillEmitters->FirstAlong(CameraRay(place, worker->samples));
+      if (seen.lamp == emitter.light)
+        light += seen.first * (area * emitters.FilterDensity(place - centre));
+    }
+  }
+  return light / sample.filter.weight;
 }
 
 int TileRenderer::RaysOfReflection(Point2i pixel, RenderWorker* worker) const {

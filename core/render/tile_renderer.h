@@ -103,6 +103,8 @@ class TileRenderer {
   // Replaces the light of still emitters in L by the mean over several places in the filter.
   void AveragePlaces(const TracedSample& sample, RenderWorker* worker, Spectrum* L,
                      AovSample* aovs) const;
+  // Returns the light of the tiny emitters in the sample's pixel, from places in their boxes.
+  Spectrum TinyLight(const TracedSample& sample, RenderWorker* worker) const;
   // Traces a few specular trees in the pixel. Returns the number of rays of one tree, or 0 if they
   // meet no still emitter. These rays are not counted. The result is the same in all passes.
   int RaysOfReflection(Point2i pixel, RenderWorker* worker) const;

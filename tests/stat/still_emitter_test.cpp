@@ -25,19 +25,23 @@ std::string LampScene(const std::string& options, const std::string& lamp) {
          "\nWorldEnd\n";
 }
 
-int PlacesIn(const LoadedScene& scene, Point2i pixel) {
+StillEmitters EmittersOf(const LoadedScene& scene) {
   const RenderSetup& setup = *scene.setup;
   const Film film(setup.film.Full(), setup.crop);
-  return StillEmitters({*setup.scene, *setup.camera, *setup.filter, film}, 0).PlacesIn(pixel);
+  return StillEmitters({*setup.scene, *setup.camera, *setup.filter, film}, 0);
 }
 
-// Returns the pixels with several places.
+int PlacesIn(const LoadedScene& scene, Point2i pixel) { return EmittersOf(scene).PlacesIn(pixel); }
+
+// Returns the pixels with several places, in the filter or in the box of a lamp.
 std::set<int> Marked(const std::string& text) {
   const LoadedScene scene = LoadSceneText(text);
+  const StillEmitters emitters = EmittersOf(scene);
   std::set<int> marked;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
-      if (PlacesIn(scene, {x, y}) > 1) marked.insert(y * kWidth + x);
+      if (emitters.PlacesIn({x, y}) > 1 || !emitters.Tiny().In({x, y}).empty())
+        marked.insert(y * kWidth + x);
   return marked;
 }
 
@@ -102,10 +106,35 @@ TEST(StillEmitters, OtherPixelsHaveOnePlace) {
 }
 
 TEST(StillEmitters, SmallLampsHaveMorePlaces) {
-  const std::string small = "Translate 0 0 2 Shape \"sphere\" \"float radius\" .05";
+  const std::string small = "Translate 0 0 2 Shape \"sphere\" \"float radius\" .3";
   const std::string large = "Translate 0 0 2 Shape \"sphere\" \"float radius\" 1";
-  EXPECT_EQ(PlacesIn(LoadSceneText(LampScene("", small)), {kWidth / 2, kHeight / 2}), 16);
-  EXPECT_EQ(PlacesIn(LoadSceneText(LampScene("", large)), {kWidth / 2, kHeight / 2}), 4);
+  const std::string box = "PixelFilter \"box\"\n";
+  EXPECT_EQ(PlacesIn(LoadSceneText(LampScene(box, small)), {kWidth / 2, kHeight / 2}), 16);
+  EXPECT_EQ(PlacesIn(LoadSceneText(LampScene(box, large)), {kWidth / 2, kHeight / 2}), 4);
+}
+
+// Returns a row of lamps in one pixel.
+std::string Lamps(int count) {
+  std::string world;
+  for (int i = 0; i < count; ++i)
+    world += "AttributeBegin AreaLightSource \"area\" \"color L\" [9 9 9]\nTranslate " +
+             std::to_string(.05 + .01 * i) +
+             " .05 2 Shape \"sphere\" \"float radius\" .004 AttributeEnd\n";
+  return world;
+}
+
+TEST(StillEmitters, LampsSmallerThanTheFilterAreTiny) {
+  const Point2i pixel{kWidth / 2, kHeight / 2 - 1};
+  for (const int count : {1, 2, TinyEmitters::kMost, TinyEmitters::kMost + 1}) {
+    const LoadedScene scene = LoadSceneText(
+        "SurfaceIntegrator \"path\"\nPixelFilter \"box\"\nFilm \"image\" \"integer "
+        "xresolution\" 24 \"integer yresolution\" 18\nWorldBegin\n" +
+        Lamps(count) + "WorldEnd\n");
+    const StillEmitters emitters = EmittersOf(scene);
+    const bool isCrowd = count > TinyEmitters::kMost;
+    EXPECT_EQ(emitters.Tiny().In(pixel).size(), isCrowd ? 0u : unsigned(count));
+    EXPECT_EQ(emitters.PlacesIn(pixel), isCrowd ? StillEmitters::kMostPlaces : 1);
+  }
 }
 
 // Settings of a picture of 16 x 16 pixels. They end before `WorldBegin`.
@@ -206,6 +235,66 @@ TEST_P(LampEdgeTest, TheMeanIsTheSameAndTheNoiseIsLess) {
   ExpectLessNoise(GetParam(), LampAhead(.4), 3);
 }
 
+// Returns a lamp that faces the camera, with a radius of 8 `size` pixels.
+std::string FacingLamp(double size, const std::string& place) {
+  return "AttributeBegin AreaLightSource \"area\" \"color L\" [50 50 50]\nTranslate " + place +
+         " ReverseOrientation Shape \"disk\" \"float radius\" " + std::to_string(2 * size) +
+         " AttributeEnd\n";
+}
+
+// Returns the mean over a disk of the film of the filter's values for all pixels, where the filter
+// has the integral 1. It is 1 for filters whose copies add up to a constant.
+double SumOfFilters(const Filter& filter, double x, double y, double radius) {
+  constexpr int kSteps = 200;
+  double integral = 0, sum = 0, count = 0;
+  for (int i = 0; i < kSteps * kSteps; ++i) {
+    const double u = 2 * (i % kSteps + .5) / kSteps - 1, v = 2 * (i / kSteps + .5) / kSteps - 1;
+    const double w = double(filter.XWidth()), h = double(filter.YWidth());
+    integral += double(filter.Evaluate({Real(u * w), Real(v * h)})) * 4 * w * h / (kSteps * kSteps);
+    if (i % 41 != 0 || u * u + v * v > 1) continue;  // some points of the disk
+    ++count;
+    for (int pixel = 0; pixel < 16 * 16; ++pixel) {
+      const double dx = x + radius * u - pixel % 16 - .5, dy = y + radius * v - pixel / 16 - .5;
+      if (std::abs(dx) < w && std::abs(dy) < h)
+        sum += double(filter.Evaluate({Real(dx), Real(dy)}));
+    }
+  }
+  return sum / count / integral;
+}
+
+// The sum over all pixels is the radiance times the area of the disk in pixels.
+TEST_P(LampEdgeTest, TinyLampsHaveTheRightLight) {
+  for (const double size : {.001, .02, .06}) {
+    const std::string text = SmallPicture(kCosts, GetParam()) + "WorldBegin\n" +
+                             FacingLamp(size, ".13 .21 2") + "WorldEnd\n";
+    const std::vector<double> means = LampPictures(text).Means();
+    double mean = 0, squares = 0;
+    for (const double value : means) mean += value / double(means.size());
+    for (const double value : means) squares += std::pow(value - mean, 2);
+    const double scatter = std::sqrt(squares / double(means.size() - 1));
+    const double filters = SumOfFilters(*LoadSceneText(text).setup->filter, 8.52, 7.16, 8 * size);
+    const double truth = 50 * double(kPi) * std::pow(8 * size, 2) * filters / (16 * 16);
+    EXPECT_LT(scatter, .35 * truth) << size;  // one picture of 4 samples
+    EXPECT_NEAR(mean, truth, 4 * scatter / std::sqrt(double(means.size())) + 1e-4 * truth) << size;
+  }
+}
+
+// A lamp in front of another has its own light only.
+TEST_P(LampEdgeTest, TinyLampsHideOthers) {
+  const auto lightOf = [&](const std::string& world) {
+    double sum = 0;
+    for (const double mean :
+         LampPictures(SmallPicture(kCosts, GetParam()) + "WorldBegin\n" + world + "WorldEnd\n")
+             .Means())
+      sum += mean / LampPictures::kSeeds;
+    return sum;
+  };
+  const std::string near = FacingLamp(.01, "0 0 1"), far = FacingLamp(.02, "0 0 2");
+  // The farther disk looks as large as the nearer one.
+  EXPECT_NEAR(lightOf(near + far), lightOf(near), .02 * lightOf(near));
+  EXPECT_GT(lightOf(far), .1 * lightOf(near));
+}
+
 TEST_P(LampEdgeTest, LampsBehindSpecularSurfacesToo) {
   ExpectLessNoise(GetParam(), LampInAMirror(.2), 8);
   ExpectLessNoise(GetParam(), LampInAMirror(.4), 8);
@@ -225,7 +314,7 @@ TEST_P(LampEdgeTest, AMediumDimsTheLampsAtAllPlaces) {
 TEST_P(LampEdgeTest, ThreadsTilesAndCropsChangeNothing) {
   const auto render = [&](const std::string& crop, int threads, int tileSize) {
     const std::string text = SmallPicture(kCosts, std::string(GetParam()) + crop) + "WorldBegin\n" +
-                             LampInAMirror(.2) + "WorldEnd\n";
+                             FacingLamp(.02, ".1 .3 .9") + LampInAMirror(.2) + "WorldEnd\n";
     TestRenderOptions options;
     options.threads = threads;
     options.tileSize = tileSize;

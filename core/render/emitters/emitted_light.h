@@ -8,8 +8,9 @@
 namespace exphoton {
 
 struct EmittedLight {
-  Spectrum first, specular;  // from the first surface, and over specular surfaces
-  bool isNear = false;       // whether a ray of the tree meets the bounds of the emitters
+  Spectrum first, specular;         // from the first surface, and over specular surfaces
+  bool isNear = false;              // whether a ray of the tree meets the bounds of the emitters
+  const AreaLight* lamp = nullptr;  // that `first` comes from; null: none
 
   bool HasSameColors(const EmittedLight& other) const {
     return first == other.first && specular == other.specular;
@@ -36,6 +37,7 @@ class EmissionShade {
     Ray toPoint = point.ray;
     toPoint.tMax = Distance(toPoint.o, point.surface.p) / Length(toPoint.d);
     light_->first = emission * scene_.Transmittance(toPoint);
+    light_->lamp = point.surface.areaLight;
     return {};
   }
 

@@ -14,6 +14,7 @@
 #include "core/imaging/film/camera.h"
 #include "core/imaging/film/film.h"
 #include "core/render/emitters/emitted_light.h"
+#include "core/render/emitters/tiny_emitters.h"
 #include "core/render/lazy_pixel_bytes.h"
 #include "core/sampling/filter.h"
 #include "core/scene/scene.h"
@@ -73,8 +74,11 @@ class StillEmitters {
     return int(std::bit_floor(unsigned(std::clamp(kRaysForReflections / most, 1, kMostPlaces))));
   }
 
-  // Returns the light of the emitters that the camera ray meets first.
-  Spectrum FirstAlong(Ray ray) const;
+  // Returns the tiny emitters that the filter of a pixel shows. The number of places is for others.
+  const TinyEmitters& Tiny() const { return tiny_; }
+
+  // Returns the light of the emitter that the camera ray meets first.
+  EmittedLight FirstAlong(Ray ray) const;
   // Returns their light along the camera ray and along specular rays that follow from it. `rays`
   // counts the rays.
   EmittedLight AllAlong(const RayDifferential& ray, const LiContext& sample,
@@ -94,7 +98,8 @@ class StillEmitters {
   PixelBounds Reached() const {
     return {crop_.x0 - reach_.x, crop_.y0 - reach_.y, crop_.x1 + reach_.x, crop_.y1 + reach_.y};
   }
-  void Mark(const Bounds3& box, const FilmView& view);
+  void Mark(const Light& light, const Bounds3& box, const FilmView& view);
+  void MarkPixel(Point2i pixel, int places);
 
   const Scene& scene_;
   int depth_;
@@ -102,6 +107,7 @@ class StillEmitters {
   Interval shutter_;
   PixelBounds crop_;
   std::vector<std::uint8_t> pixels_;  // places, of the crop row by row; empty: none
+  TinyEmitters tiny_;
   mutable std::optional<LazyPixelBytes> reflections_;  // of the crop and what filters reach
 };
 

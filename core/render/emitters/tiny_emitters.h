@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// TinyEmitters are still emitters whose projected boxes are smaller than the filter of a pixel. Few
+// places of the filter meet them, so their light, seen directly, is estimated from places in their
+// boxes instead:
+//   the integral of f Le over a box of area A = the mean of A f(x) Le(x) over uniform places x,
+// where f is the filter, with the integral 1 (docs/decisions/0106-lamps-smaller-than-pixels.md).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/lights/light.h"
+#include "core/render/emitters/emitted_light.h"
+#include "core/render/emitters/film_box.h"
+#include "core/sampling/filter.h"
+
+namespace exphoton {
+
+class TinyEmitters {
+ public:
+  static constexpr int kMost = 4;  // emitters in the filter of a pixel
+  // Places in a box, for one camera sample. They are at least as dense as the 16 places in the
+  // filter that other small emitters have (StillEmitters::kMostPlaces).
+  static constexpr int kFewPlaces = 4, kManyPlaces = 16;
+  // Boxes that cover more than this share of the filter's area have many places.
+  static constexpr double kFewShare = 1. / 4;
+
+  struct Emitter {
+    const Light* light;
+    FilmBox box;
+    int places = 0;  // set by Add
+  };
+
+  // The filter must have no negative values and outlive this object.
+  explicit TinyEmitters(const Filter& filter) : filter_(filter) {}
+
+  // Adds an emitter to pixels. Returns whether it is tiny.
+  bool Add(Emitter emitter, const PixelBounds& crop);
+  // Ends the additions. Removes the emitters of pixels that have too many, and returns these
+  // pixels.
+  std::vector<Point2i> RemoveCrowds();
+
+  // Returns the emitters that the filter of a pixel may show, as indices for operator[].
+  struct InPixel {
+    int x, y;
+    std::uint32_t emitter;
+  };
+  std::span<const InPixel> In(Point2i pixel) const;
+  // Returns the light without what comes first from one of these emitters.
+  EmittedLight Without(std::span<const InPixel> emitters, EmittedLight light) const;
+  const Emitter& operator[](const InPixel& one) const { return emitters_[one.emitter]; }
+
+  // Returns the filter's value at an offset from the centre of its pixel, for the integral 1. In
+  // pixels^-2.
+  Real FilterDensity(Point2 offset) const { return filter_.Evaluate(offset) / integral_; }
+  // Returns the part of an emitter's box that the filter of a pixel with this centre meets.
+  FilmBox BoxIn(const Emitter& emitter, Point2 centre) const {
+    return emitter.box.Near(centre, double(filter_.XWidth()), double(filter_.YWidth()));
+  }
+
+ private:
+  const Filter& filter_;
+  Real integral_ = 0;  // of the filter; 0: not known yet
+  std::vector<Emitter> emitters_;
+  std::vector<InPixel> pixels_;  // row by row
+};
+
+}  // namespace exphoton
