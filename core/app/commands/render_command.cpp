@@ -277,7 +277,11 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
-  if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
+  if (command_.dial) {
+    run->choice = command_.dial->text;
+    run->omitted = command_.dial->omitted;
+    run->lacking = command_.dial->lacking;
+  }
   RecordPasses(result, run);
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
@@ -287,6 +291,10 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   for (const std::string& light : run->unseen)
     log_.Warning("the error does not contain " + light + ", which integrator \"" +
                      run->scene.integrator + "\" never finds",
+                 {}, "--integrator exphotonmap finds this light");
+  if (!run->lacking.empty())
+    log_.Warning("integrator \"" + run->scene.integrator + "\" " + run->lacking +
+                     ", and the error does not contain this light",
                  {}, "--integrator exphotonmap finds this light");
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }

@@ -214,7 +214,9 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
       *command.accuracy, command.keepsSettings, names.size() == 1,
       [&](Candidate* candidate) { return FindOmissions(command, &pilots, candidate, log); },
       command.givenUp};
-  const std::vector<Candidate> candidates = ExploreAll(&pilots, names, wish);
+  const std::vector<Candidate> candidates =
+      names.size() > 1 ? ExploreAll(&pilots, names, wish)
+                       : std::vector{ExploreNamed(&pilots, names.front(), wish)};
   Candidate chosen = CheapestOf(candidates, accuracy);
   if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
@@ -225,6 +227,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                  .photonSamples = chosen.photonSamples,
                  .settings = chosen.settings,
                  .omitted = chosen.omitted,
+                 .lacking = chosen.lacking,
                  .text = ChoiceText(pilots, chosen),
                  .expectedSamples = chosen.price.samples,
                  .mayRaisePhotons = !command.keepsSettings && MayRaisePhotons(chosen.settings),

@@ -14,6 +14,8 @@ constexpr LightTest kFarMore{.leastMissing = .1, .mostChance = .02};
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
 // rays would make the bias of sharing uncertain.
 constexpr int kGatherRays = 16;
+// Its photons find light that paths from the camera hardly ever meet.
+constexpr const char* kPhotonWitness = "exphotonmap";
 
 // The means of rough pilots say little, and so do those of pilots that lack much light on purpose.
 bool HasWholeLight(const Candidate& candidate) {
@@ -144,7 +146,24 @@ std::vector<Candidate> SettleCheapest(std::vector<Explorer>* explorers) {
   }
 }
 
+// Returns whether an integrator may fail to meet light that photons find.
+bool HasWitness(const std::string& integrator) {
+  return integrator == "path" || integrator == kGuidedPath;
+}
+
 }  // namespace
+
+Candidate ExploreNamed(PilotRenderer* pilots, const std::string& name, const Wish& wish) {
+  Candidate named = ExploreAll(pilots, {name}, wish).front();
+  if (!HasWitness(name) || !pilots->HasSpecularSurfaces() || !named.reason.empty()) return named;
+  Explorer witness = MakeExplorer(pilots, kPhotonWitness, wish);
+  witness.Begin(named.KnownPrice());
+  if (!ShowsMoreLight(witness.Result(), {named})) return named;
+  witness.SettleLight();
+  const PilotMean means[] = {named.mean, witness.Result().mean};
+  named.lacking = MissingLight(named.mean, means);
+  return named;
+}
 
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
                                   const Wish& wish) {

@@ -17,4 +17,8 @@ inline constexpr const char* kGuidedPath = "guidedpath";
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
                                   const Wish& wish);
 
+// The same for the integrator that the user names. If it is path or guidedpath, a small pilot of
+// exphotonmap shows whether it lacks much light (Candidate::lacking). It keeps its price.
+Candidate ExploreNamed(PilotRenderer* pilots, const std::string& name, const Wish& wish);
+
 }  // namespace exphoton::cli

@@ -75,6 +75,18 @@ TEST_F(ChoiceTest, LeavesOutIntegratorsThatLackMuchLightOfARoughPilot) {
   ExpectIn("the error lies below", result.err);
 }
 
+// A named integrator stays, but its error is no promise for light that it does not meet.
+TEST_F(ChoiceTest, SaysHowMuchLightANamedIntegratorLacks) {
+  const ProgramResult result =
+      Render(kBrightBead, {"--integrator", "path", "--stats-json", "room.json"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  ExpectIn("accuracy 10%: integrator path, ", result.err);
+  ExpectIn("warning: integrator \"path\" finds ", result.err);
+  ExpectIn("% less light than exphotonmap, and the error does not contain this light", result.err);
+  ExpectIn("less light than exphotonmap\"", Read("room.json"));
+  ExpectIn("accuracy/notCovered", Run({"info", "room.exr"}).out);
+}
+
 TEST_F(ChoiceTest, IsMadeAgainWhereAPictureIsFarNoisierThanItsPilots) {
   Write("lamp.pbrt", RoomWithAHiddenLamp());
   std::string pictures[2];

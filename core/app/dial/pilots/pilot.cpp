@@ -73,6 +73,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   sceneGatherRays_ = int(GivenNumber(*setup_, "finalgathersamples"));
   if (setup_->integrator && setup_->scene)
     sceneSharesGathers_ = PlanSharing(*setup_->integrator, *setup_->scene, *setup_->camera).isOn;
+  hasSpecularSurfaces_ = setup_->scene && setup_->scene->Features().Needs(Feature::Specular);
   sceneUsedPhotons_ = GivenNumber(*setup_, "nused");
   sceneDirectPhotons_ = GivenNumber(*setup_, "directphotons");
   scenePaths_ = GivenNumber(*setup_, "maxphotonpaths");
