@@ -6,11 +6,13 @@ Usage: accuracy.py PROGRAM WxH REFERENCE_SECONDS MOST_SECONDS SEEDS SCENE ...
 Renders each scene with accuracies of 10, 5 and 2 %, or with those that are given. The error of a
 picture is measured against a reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be
 samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latter with the gather
-rays of the scene and with 16, and 1 to 4096 samples a pixel, as far as a render takes at most
-MOST_SECONDS, another setting is not cheaper, and the error is not below half of the accuracy. Each setting has two seeds: the mean of their relMSE and the smaller time. "Best" is
-the CPU time of the cheapest setting for the mean error that the dial reached, interpolated in the
-grid. "Times best" is the ratio of both. Accuracies that the grid does not reach are left out, and
-so are those where the noise of the reference exceeds a fifth of the squared error. The folder of
+rays of the scene and with 16, and 1 to 4096 samples a pixel. A setting ends where a render would
+take more than MOST_SECONDS, where another setting is cheaper, or where the error is below half of
+the smallest accuracy. Each setting has two seeds: the mean of their relMSE and the smaller time.
+"Best" is the CPU time of the cheapest setting for the mean error that the dial reached,
+interpolated in the grid. "Times best" is the ratio of both. Where a picture takes more than 3
+MOST_SECONDS by the clock, the accuracy is out of reach. Accuracies where the noise of the reference
+exceeds a fifth of the squared error are left out. The folder of
 --cache keeps references and grids for later runs. Another reference or size has other files there.
 The seconds of a grid are comparable only with runs on the same machine under the same load, so
 delete two-grids-*.json there where this has changed.
@@ -19,6 +21,7 @@ import argparse
 import json
 import math
 import os
+import subprocess
 import tempfile
 
 from picture_errors import Scene, folder_of
@@ -28,6 +31,7 @@ THREAD = ("--nthreads", "1")
 SETTINGS = {"exphotonmap": [],
             "exphotonmap with 16 rays": ["--set", "SurfaceIntegrator.finalgathersamples=16"],
             "path": [], "guidedpath": []}
+PATIENCE = 3  # times the most seconds, which the picture of an accuracy may take by the clock
 LEAST_SHARE = .5  # of the smallest accuracy: the error that the grid has to reach
 
 
@@ -116,8 +120,6 @@ class Table:
                 label = f"| {path.split('/')[-2]} | {percent:g} % |"
                 if scene.noise / 4 > .2 * (percent / 100) ** 2:
                     print(label, "the reference is too noisy | | | | | |", flush=True)
-                elif best_of(grid, (percent / 100) ** 2)[1] is None:
-                    print(label, "out of reach | | | | | |", flush=True)
                 else:
                     self.add_row(label, scene, grid, percent / 100)
 
@@ -125,8 +127,13 @@ class Table:
         errors, times, pilots, chosen = [], [], [], set()
         report = os.path.join(scene.folder, "report.json")
         for seed in range(1, self.given.seeds + 1):
-            picture, cpu = scene.render("picture", "--accuracy", f"{100 * accuracy:g}%", "--seed",
-                                        str(seed), "--stats-json", report, *THREAD)
+            try:
+                picture, cpu = scene.render(
+                    "picture", "--accuracy", f"{100 * accuracy:g}%", "--seed", str(seed),
+                    "--stats-json", report, *THREAD, most_seconds=PATIENCE * self.given.most_seconds)
+            except subprocess.TimeoutExpired:
+                print(label, "out of reach | | | | | |", flush=True)
+                return
             with open(report, encoding="utf-8") as file:
                 statistics = json.load(file)
             errors.append(max(scene.error(picture), 0) ** .5)

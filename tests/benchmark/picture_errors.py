@@ -10,9 +10,10 @@ from read_exr import read_exr
 OFFSET = .01  # of relMSE
 
 
-def run(arguments, errors=False):
-    """Returns what a program prints to standard output, or to standard error."""
-    result = subprocess.run(arguments, capture_output=True, text=True)
+def run(arguments, errors=False, most_seconds=None):
+    """Returns what a program prints to standard output, or to standard error. Raises
+    subprocess.TimeoutExpired after this time."""
+    result = subprocess.run(arguments, capture_output=True, text=True, timeout=most_seconds)
     if result.returncode not in (0, 2):
         sys.exit(f"{' '.join(arguments)}\n{result.stderr}")
     return result.stderr if errors else result.stdout
@@ -36,11 +37,11 @@ class Scene:
     def __init__(self, program, path, size, folder):
         self.program, self.path, self.size, self.folder = program, path, size, folder
 
-    def render(self, name, *options):
+    def render(self, name, *options, most_seconds=None):
         picture = os.path.join(self.folder, name + ".exr")
         before = cpu_seconds()
         run([self.program, self.path, "--resolution", self.size, "--footprint-spp", "16", "--float",
-             "--quiet", "--no-progress", "-o", picture, *options])
+             "--quiet", "--no-progress", "-o", picture, *options], most_seconds=most_seconds)
         return picture, cpu_seconds() - before
 
     def rel_mse(self, picture, reference):
