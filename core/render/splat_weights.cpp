@@ -19,14 +19,6 @@ int ReachOf(const Filter& filter) {
   return int(std::floor(double(std::max(filter.XWidth(), filter.YWidth())) + .5));
 }
 
-bool HasNegativeValues(const Filter& filter) {
-  const Real limit = Real(-1e-4) * filter.Evaluate({0, 0});
-  for (int y = 0; y < kGrid; ++y)
-    for (int x = 0; x < kGrid; ++x)
-      if (filter.Evaluate(GridPoint(filter, x, y)) < limit) return true;
-  return false;
-}
-
 bool IsProduct(const Filter& filter) {
   const double top = double(filter.Evaluate({0, 0}));
   if (!(top > 0)) return false;
@@ -72,6 +64,14 @@ bool IsNarrow(const Filter& filter) {
 }
 
 }  // namespace
+
+bool HasNegativeValues(const Filter& filter) {
+  const Real limit = Real(-1e-4) * filter.Evaluate({0, 0});
+  for (int y = 0; y < kGrid; ++y)
+    for (int x = 0; x < kGrid; ++x)
+      if (filter.Evaluate(GridPoint(filter, x, y)) < limit) return true;
+  return false;
+}
 
 std::unique_ptr<const SplatWeights> SplatWeights::Of(const Filter& filter) {
   if (ReachOf(filter) > kMaxReach || !HasNegativeValues(filter) || IsNarrow(filter)) return nullptr;

@@ -12,6 +12,8 @@
 
 namespace exphoton {
 
+bool HasNegativeValues(const Filter& filter);
+
 class SplatWeights {
  public:
   // Returns null if samples are to be drawn by Filter::Sample: the filter has no negative values,

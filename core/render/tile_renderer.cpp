@@ -345,8 +345,8 @@ Spectrum TileRenderer::TinyLight(const TracedSample& sample, RenderWorker* worke
   for (const TinyEmitters::InPixel& one : emitters.In(sample.pixel)) {
     const TinyEmitters::Emitter& emitter = emitters[one];
     const FilmBox box = emitters.BoxIn(emitter, centre);
-    const Real area = Real(box.IsEmpty() ? 0 : box.Area()) / Real(emitter.places);
-    for (int i = 0; area > 0 && i < emitter.places; ++i) {
+    const Real area = Real(box.Area()) / Real(emitter.places);
+    for (int i = 0; i < emitter.places; ++i) {
       const Point2 place = box.At(StillEmitters::Place(worker->samples.film, i, emitter.places));
       worker->totals.rays.Count(RayKind::Camera);
       const EmittedLight seen =

@@ -31,7 +31,7 @@ THREAD = ("--nthreads", "1")
 SETTINGS = {"exphotonmap": [],
             "exphotonmap with 16 rays": ["--set", "SurfaceIntegrator.finalgathersamples=16"],
             "path": [], "guidedpath": []}
-PATIENCE = 3  # times the most seconds, which the picture of an accuracy may take by the clock
+PATIENCE = 3  # The picture of an accuracy may take 3 MOST_SECONDS by the clock.
 LEAST_SHARE = .5  # of the smallest accuracy: the error that the grid has to reach
 
 
@@ -55,7 +55,7 @@ def grid_of(scene, most_seconds, least_error):
                 times.append(cpu)
             cpu = min(times)
             points.append((max(sum(errors) / len(errors), 1e-12), cpu))
-            reaches = points[-1][0] < least_error ** 2
+            reaches = 1e-12 < points[-1][0] < least_error ** 2
             if reaches or cpu > limit or 2 * cpu > most_seconds:
                 limit = min(limit, cpu) if reaches else limit
                 break
@@ -65,19 +65,21 @@ def grid_of(scene, most_seconds, least_error):
     return grid
 
 
-def seconds_for(points, rel_mse):
-    """Interpolates log seconds over log relMSE; None beyond the last point."""
+def seconds_for(points, rel_mse, least_error):
+    """Interpolates log seconds over log relMSE. Where a setting ended at the least error, seconds
+    beyond it grow as without bias. None beyond the last point of other settings."""
     for (error, cpu), (next_error, next_cpu) in zip(points, points[1:]):
         if next_error <= rel_mse:
             if error <= rel_mse:
                 return cpu
             t = math.log(error / rel_mse) / math.log(error / next_error)
             return cpu * (next_cpu / cpu) ** t
-    return None
+    error, cpu = points[-1]
+    return cpu * error / rel_mse if error < least_error ** 2 else None
 
 
-def best_of(grid, rel_mse):
-    times = {name: seconds_for(points, rel_mse) for name, points in grid.items()}
+def best_of(grid, rel_mse, least_error):
+    times = {name: seconds_for(points, rel_mse, least_error) for name, points in grid.items()}
     times = {name: time for name, time in times.items() if time is not None}
     if not times:
         return None, None
@@ -114,7 +116,8 @@ class Table:
             scene = Scene(given.program, path, given.size, folder)
             scene.reference(given.reference)
             accuracies = [float(text) for text in given.accuracies.split(",")]
-            grid = grid_of(scene, given.most_seconds, LEAST_SHARE * min(accuracies) / 100)
+            self.least_error = LEAST_SHARE * min(accuracies) / 100
+            grid = grid_of(scene, given.most_seconds, self.least_error)
             scene.folder = temporary
             for percent in accuracies:
                 label = f"| {path.split('/')[-2]} | {percent:g} % |"
@@ -132,7 +135,8 @@ class Table:
                     "picture", "--accuracy", f"{100 * accuracy:g}%", "--seed", str(seed),
                     "--stats-json", report, *THREAD, most_seconds=PATIENCE * self.given.most_seconds)
             except subprocess.TimeoutExpired:
-                print(label, "out of reach | | | | | |", flush=True)
+                self.count_promises(errors, accuracy)
+                print(label, f"out of reach after {len(errors)} pictures | | | | | |", flush=True)
                 return
             with open(report, encoding="utf-8") as file:
                 statistics = json.load(file)
@@ -141,11 +145,9 @@ class Table:
             pilots += [phase["cpuSeconds"] for phase in statistics["phases"]
                        if phase["name"] == "pilots"]
             chosen.add(statistics["integrator"])
-        hits = sum(error <= accuracy for error in errors)
-        self.count += len(errors)
-        self.kept += hits
-        self.thrifty += sum(error >= accuracy / 2 for error in errors)
-        name, best = best_of(grid, sum(error ** 2 for error in errors) / len(errors))
+        hits = self.count_promises(errors, accuracy)
+        name, best = best_of(grid, sum(error ** 2 for error in errors) / len(errors),
+                             self.least_error)
         time = sum(times) / len(times)
         if best:
             self.ratios.append(time / best)
@@ -154,6 +156,14 @@ class Table:
               f"{hits} of {len(errors)} | {time:.3g} ({sum(pilots) / len(pilots):.2g}) | "
               + (f"{name}, {best:.3g} | {time / best:.2f} |" if best else "not in the grid | |"),
               flush=True)
+
+    def count_promises(self, errors, accuracy):
+        """Returns how many of the errors keep the promise."""
+        hits = sum(error <= accuracy for error in errors)
+        self.count += len(errors)
+        self.kept += hits
+        self.thrifty += sum(error >= accuracy / 2 for error in errors)
+        return hits
 
     def print_sums(self):
         print(f"{self.kept} of {self.count} promises kept; {self.thrifty} errors above half of the "

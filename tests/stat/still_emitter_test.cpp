@@ -113,30 +113,6 @@ TEST(StillEmitters, SmallLampsHaveMorePlaces) {
   EXPECT_EQ(PlacesIn(LoadSceneText(LampScene(box, large)), {kWidth / 2, kHeight / 2}), 4);
 }
 
-// Returns a row of lamps in one pixel.
-std::string Lamps(int count) {
-  std::string world;
-  for (int i = 0; i < count; ++i)
-    world += "AttributeBegin AreaLightSource \"area\" \"color L\" [9 9 9]\nTranslate " +
-             std::to_string(.05 + .01 * i) +
-             " .05 2 Shape \"sphere\" \"float radius\" .004 AttributeEnd\n";
-  return world;
-}
-
-TEST(StillEmitters, LampsSmallerThanTheFilterAreTiny) {
-  const Point2i pixel{kWidth / 2, kHeight / 2 - 1};
-  for (const int count : {1, 2, TinyEmitters::kMost, TinyEmitters::kMost + 1}) {
-    const LoadedScene scene = LoadSceneText(
-        "SurfaceIntegrator \"path\"\nPixelFilter \"box\"\nFilm \"image\" \"integer "
-        "xresolution\" 24 \"integer yresolution\" 18\nWorldBegin\n" +
-        Lamps(count) + "WorldEnd\n");
-    const StillEmitters emitters = EmittersOf(scene);
-    const bool isCrowd = count > TinyEmitters::kMost;
-    EXPECT_EQ(emitters.Tiny().In(pixel).size(), isCrowd ? 0u : unsigned(count));
-    EXPECT_EQ(emitters.PlacesIn(pixel), isCrowd ? StillEmitters::kMostPlaces : 1);
-  }
-}
-
 // Settings of a picture of 16 x 16 pixels. They end before `WorldBegin`.
 std::string SmallPicture(const std::string& integrator, const std::string& filter) {
   return "SurfaceIntegrator " + integrator +

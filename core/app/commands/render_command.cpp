@@ -27,6 +27,7 @@
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
 #include "core/app/shards/part_writer.h"
+#include "core/base/format.h"
 #include "core/base/memory.h"
 #include "core/base/progress.h"
 #include "core/imaging/files/exr.h"
@@ -225,6 +226,9 @@ RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& st
   run.footprintSamples = command_.footprintSamples;
   run.aovs = AovNames(command_);
   if (command_.accuracy) run.unseen = setup.integrator->UnseenLight(*setup.scene);
+  if (command_.dial && command_.dial->lackingShare > 0)
+    run.unseen.push_back(Format("about %.0f %% of the light that exphotonmap finds",
+                                100 * command_.dial->lackingShare));
   return run;
 }
 
@@ -277,11 +281,7 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
 }
 
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
-  if (command_.dial) {
-    run->choice = command_.dial->text;
-    run->omitted = command_.dial->omitted;
-    run->lacking = command_.dial->lacking;
-  }
+  if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
   RecordPasses(result, run);
   run->timeLimit = command_.timeLimit;
   run->targetError = command_.targetError;
@@ -289,12 +289,8 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->pilots = loader_.Pilots();
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
   for (const std::string& light : run->unseen)
-    log_.Warning("the error does not contain " + light + ", which integrator \"" +
-                     run->scene.integrator + "\" never finds",
-                 {}, "--integrator exphotonmap finds this light");
-  if (!run->lacking.empty())
-    log_.Warning("integrator \"" + run->scene.integrator + "\" " + run->lacking +
-                     ", and the error does not contain this light",
+    log_.Warning("the error does not contain " + light + ", because integrator \"" +
+                     run->scene.integrator + "\" does not find it",
                  {}, "--integrator exphotonmap finds this light");
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }

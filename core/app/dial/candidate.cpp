@@ -37,6 +37,11 @@ constexpr double kMostGainOverPath = 16;
 // Pilots with few samples were wrong by up to this factor about the ratio of two prices.
 constexpr double kRivalRatio = 4;
 
+// Returns the limit of the paths of a rough pilot whose photons may cost this much in the picture.
+double MostPaths(double most) {
+  return std::max(most / (kPhotonsOfPicture * kCostOfPath), kFewestPaths);
+}
+
 }  // namespace
 
 bool Candidate::IsRivalOf(const Candidate& other) const {
@@ -76,6 +81,7 @@ void Explorer::Guarded(const Step& step) {
 
 void Explorer::Begin(double most) {
   Guarded([&] {
+    pilots_->LimitRoughPaths(MostPaths(most));
     CheckLight();
     // The pilot of path costs little, and shows whether others find still less light.
     if (!candidate_.reason.empty() && candidate_.integrator != "path") return;
@@ -107,7 +113,7 @@ void Explorer::SettleLight() {
 // Returns whether there is a rough pilot. If it is cut off, and the photons of the picture would
 // not cost more than `most`, it is rendered again with more paths.
 bool Explorer::RenderRough(double most) {
-  double paths = std::max(most / (kPhotonsOfPicture * kCostOfPath), kFewestPaths);
+  double paths = MostPaths(most);
   for (;; paths *= kMorePaths) {
     pilots_->LimitRoughPaths(paths);
     if (!series_.RenderRough()) return false;

@@ -19,8 +19,8 @@ inline constexpr double kNoPrice = std::numeric_limits<double>::infinity();
 
 struct Candidate {
   std::string integrator;
-  std::string reason;   // why it has no price; "": it has one
-  std::string lacking;  // light that another integrator finds, as a phrase; "": none is known
+  std::string reason;       // why it has no price; "": it has one
+  double lackingShare = 0;  // of the light that exphotonmap finds, what this one lacks; 0: unknown
   // Prices are in units of CountedCost, and photons in factors of the scene's.
   Price price;
   DialSettings settings;

@@ -112,6 +112,7 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
   wish.keepsPhotons = wish.mayMissLight = false;
   wish.findOmissions = nullptr;
   std::vector<std::string> names(std::begin(kAutomatic), std::end(kAutomatic));
+  pilots->Compare(names);
   const Candidate* best = nullptr;
   const std::vector<Candidate> others = ExploreAll(pilots, names, wish);
   for (const Candidate& other : others)
@@ -227,7 +228,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                  .photonSamples = chosen.photonSamples,
                  .settings = chosen.settings,
                  .omitted = chosen.omitted,
-                 .lacking = chosen.lacking,
+                 .lackingShare = chosen.lackingShare,
                  .text = ChoiceText(pilots, chosen),
                  .expectedSamples = chosen.price.samples,
                  .mayRaisePhotons = !command.keepsSettings && MayRaisePhotons(chosen.settings),

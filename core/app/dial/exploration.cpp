@@ -11,6 +11,8 @@ constexpr double kNotableOmission = .005;  // root of relMSE
 // A rough pilot has a tenth of the photons and few pixels, so its light is known to about this. A
 // wrong suspicion only costs a pilot.
 constexpr LightTest kFarMore{.leastMissing = .1, .mostChance = .02};
+// The same without a pilot of full size that would confirm it.
+constexpr LightTest kSurelyMore{.leastMissing = .2, .mostChance = 6.3e-5};
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
 // rays would make the bias of sharing uncertain.
 constexpr int kGatherRays = 16;
@@ -154,14 +156,16 @@ bool HasWitness(const std::string& integrator) {
 }  // namespace
 
 Candidate ExploreNamed(PilotRenderer* pilots, const std::string& name, const Wish& wish) {
+  const bool hasWitness = HasWitness(name) && pilots->HasSpecularSurfaces() &&
+                          pilots->UnseenLight({.integrator = name}).empty();
   Candidate named = ExploreAll(pilots, {name}, wish).front();
-  if (!HasWitness(name) || !pilots->HasSpecularSurfaces() || !named.reason.empty()) return named;
+  if (!hasWitness || !named.reason.empty()) return named;
   Explorer witness = MakeExplorer(pilots, kPhotonWitness, wish);
   witness.Begin(named.KnownPrice());
-  if (!ShowsMoreLight(witness.Result(), {named})) return named;
-  witness.SettleLight();
-  const PilotMean means[] = {named.mean, witness.Result().mean};
-  named.lacking = MissingLight(named.mean, means);
+  const PilotMean& seen = witness.Result().mean;
+  const PilotMean means[] = {named.mean, seen};
+  if (seen.light.mean > 0 && !MissingLight(named.mean, means, kSurelyMore).empty())
+    named.lackingShare = 1 - named.mean.light.mean / seen.light.mean;
   return named;
 }
 

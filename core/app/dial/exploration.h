@@ -17,8 +17,9 @@ inline constexpr const char* kGuidedPath = "guidedpath";
 std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::string>& names,
                                   const Wish& wish);
 
-// The same for the integrator that the user names. If it is path or guidedpath, a small pilot of
-// exphotonmap shows whether it lacks much light (Candidate::lacking). It keeps its price.
+// The same for an integrator without rivals, which the user names or keeps. If it is path or
+// guidedpath, and there are mirrors or glass, a rough pilot of exphotonmap shows whether it lacks
+// much light (Candidate::lackingShare). It keeps its price.
 Candidate ExploreNamed(PilotRenderer* pilots, const std::string& name, const Wish& wish);
 
 }  // namespace exphoton::cli

@@ -39,7 +39,7 @@ struct DialChoice {
   double photonSamples = 0;       // the same
   DialSettings settings;
   std::vector<OmittedEffect> omitted;
-  std::string lacking;         // light that another integrator finds, as a phrase; "": none
+  double lackingShare = 0;     // of the light that exphotonmap finds, what is missing; 0: unknown
   std::string text;            // what changed
   double expectedSamples = 0;  // as in StoppingRule::Accuracy
   // Whether the picture may begin again with more photons.

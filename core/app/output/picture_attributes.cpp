@@ -93,7 +93,7 @@ std::map<std::string, ImageAttribute> PictureAttributes(const RunRecord& run, bo
   if (run.accuracy) attributes["accuracy/wanted"] = float(*run.accuracy);
   if (run.accuracy) attributes["accuracy/chosen"] = run.choice;
   if (!run.omitted.empty()) AddOmissions(run.omitted, &attributes);
-  if (!run.LightOutsideError().empty()) attributes["accuracy/notCovered"] = run.LightOutsideError();
+  if (!run.unseen.empty()) attributes["accuracy/notCovered"] = run.unseen.front();
   if (run.upperError) attributes["accuracy/upperError"] = float(std::sqrt(*run.upperError));
   attributes["comments"] = std::string(run.isComplete ? "" : "incomplete: interrupted; ") +
                            "sampler " + scene.sampler + ", filter " + scene.filter + ", camera " +

@@ -179,8 +179,7 @@ void AddPilots(const PilotWork& pilots, JsonWriter* json) {
 void AddAccuracy(const RunRecord& run, JsonWriter* json) {
   json->Key("accuracy"), json->Open('{');
   json->Key("wanted"), json->Number(*run.accuracy);
-  if (!run.LightOutsideError().empty())
-    json->Key("notCovered"), json->Text(run.LightOutsideError());
+  if (!run.unseen.empty()) json->Key("notCovered"), json->Text(run.unseen.front());
   if (run.upperError) json->Key("upperError"), json->Number(std::sqrt(*run.upperError));
   json->Key("chosen"), json->Text(run.choice);
   json->Key("omitted"), json->Open('[');

@@ -51,15 +51,11 @@ struct RunRecord {
   std::optional<double> upperError;    // relMSE; the upper end of its interval (AccuracyRule)
   std::string choice;                  // what --accuracy chose
   std::vector<OmittedEffect> omitted;  // what it left out
-  std::vector<std::string> unseen;     // light that the error does not contain
-  std::string lacking;                 // the same, found by pilots; a phrase, "": none
+  std::vector<std::string> unseen;     // light that neither picture nor error contains
   std::optional<PilotWork> pilots;     // what its pilots traced and stored
   std::optional<double> lastDiskArea;  // of the last progressive pass, relative to the first
   std::string aovs;                    // "albedo, N"
   std::string commandLine;
-
-  // Returns light that the error does not contain; "": none is known.
-  const std::string& LightOutsideError() const { return unseen.empty() ? lacking : unseen.front(); }
 };
 
 // isReproducible: omits times, dates, user, threads and command line, so that equal renders give

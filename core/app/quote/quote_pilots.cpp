@@ -33,6 +33,11 @@ Quote RunPilots(PilotRenderer* renderer, const std::string& integrator, double c
   quote.integrator = integrator;
   PilotSeries series(renderer, integrator, 0, PilotSeries::Unit::CpuSeconds);
   try {
+    const std::vector<std::string> unseen = series.UnseenLight();
+    if (!unseen.empty()) {
+      quote.failure = "never finds " + unseen.front();
+      return quote;
+    }
     RenderSeries(&series, cpuSeconds);
   } catch (const Error& error) {
     quote.failure = error.what();
@@ -42,8 +47,6 @@ Quote RunPilots(PilotRenderer* renderer, const std::string& integrator, double c
   quote.model = series.Model();
   quote.settings = series.Settings();
   quote.light = last.light;
-  const std::vector<std::string> unseen = series.UnseenLight();
-  if (!unseen.empty()) quote.failure = "never finds " + unseen.front();
   quote.memory = PeakMemoryBytes() + kPixelMemory * (renderer->Pixels() - last.pixels);
   if (last.certificate) quote.notCovered = last.certificate->notCovered;
   return quote;

@@ -49,6 +49,9 @@ std::vector<study::Prediction> Predict(const StudyOptions& options,
   arguments.erase(arguments.begin());  // the name of the command
   RenderCommand command = ParseRenderCommand(arguments, RenderMode::Render);
   command.load.comparedIntegrators = names;
+  if (!options.makeReference.empty())
+    command.load.comparedIntegrators.push_back(
+        study::ParseSetting(options.makeReference).integrator);
   FileSource::Streams streams;
   Log log(Log::Level::Quiet, Log::Sink::Memory);
   std::vector<Quote> quotes;

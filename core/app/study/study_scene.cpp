@@ -238,11 +238,15 @@ std::map<std::string, std::set<std::string>> FindForeignSets(
     const ParameterOverride set = ParseOverride(text);
     if (set.directive != "SurfaceIntegrator") continue;
     std::set<std::string> without;
-    for (const std::string& integrator : integrators)
-      if (!lookup.Has(integrator, set.parameter)) without.insert(integrator);
+    std::vector<std::string> known;
+    for (const std::string& integrator : integrators) {
+      const std::vector<std::string> names = lookup.Names(integrator);
+      known.insert(known.end(), names.begin(), names.end());
+      if (std::ranges::find(names, set.parameter) == names.end()) without.insert(integrator);
+    }
     if (without == integrators)
       FailUsage("--set: no integrator of the comparison has a parameter \"" + set.parameter + "\"",
-                DidYouMean(set.parameter, lookup.Names(*integrators.begin())));
+                DidYouMean(set.parameter, known));
     for (const std::string& integrator : without) foreign[integrator].insert(text);
   }
   return foreign;

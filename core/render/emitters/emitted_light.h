@@ -10,7 +10,7 @@ namespace exphoton {
 struct EmittedLight {
   Spectrum first, specular;         // from the first surface, and over specular surfaces
   bool isNear = false;              // whether a ray of the tree meets the bounds of the emitters
-  const AreaLight* lamp = nullptr;  // that `first` comes from; null: none
+  const AreaLight* lamp = nullptr;  // the lamp of `first`; null: none
 
   bool HasSameColors(const EmittedLight& other) const {
     return first == other.first && specular == other.specular;

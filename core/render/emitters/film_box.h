@@ -16,15 +16,19 @@ class FilmBox {
   FilmBox(const Bounds3& box, const Matrix4& worldToNdc, const PixelBounds& full);
 
   // Empty boxes have no place on the film.
-  bool IsEmpty() const { return !(x0_ <= x1_); }
+  bool IsEmpty() const { return !(x0_ <= x1_ && y0_ <= y1_); }
+  bool Contains(Point2 place) const {
+    const double x = double(place.x), y = double(place.y);
+    return x >= x0_ && x <= x1_ && y >= y0_ && y <= y1_;
+  }
   double Area() const { return (x1_ - x0_) * (y1_ - y0_); }  // in pixels
   // Returns the pixels of `crop` whose filters of these half-widths overlap the rectangle.
   PixelBounds Pixels(const PixelBounds& crop, double xWidth, double yWidth) const;
   // Returns the rectangle with a margin on each side, in pixels.
   FilmBox Grown(double margin) const;
-  // Returns the part within the half-widths from a place of the film. It may be empty.
+  // Returns the part within the half-widths from a place of the film, in pixels. It may be empty.
   FilmBox Near(Point2 place, double xWidth, double yWidth) const;
-  // Returns a place that is uniform in the rectangle if u is in [0,1)^2.
+  // Returns a place of the film, in pixels, that is uniform in the rectangle if u is in [0,1)^2.
   Point2 At(Point2 u) const {
     return {Real(x0_ + double(u.x) * (x1_ - x0_)), Real(y0_ + double(u.y) * (y1_ - y0_))};
   }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/render/splat_weights.h"
+
 namespace exphoton {
 namespace {
 
@@ -12,6 +14,18 @@ namespace {
 // pixels up to it are examined. It is at least the next one, because the trees in a pixel miss
 // small emitters.
 int Reach(Real width) { return int(std::clamp(width + Real(.5), Real(1), Real(4))); }
+
+// Returns the box with a margin for the rounding of camera rays and of intersections, which is
+// proportional to the coordinates.
+Bounds3 WithMargin(const Bounds3& box, const Point3& eye) {
+  constexpr int kRoundings = 16;
+  Real largest = 0;
+  for (const Point3& p : {box.min, box.max, eye})
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const Real margin = Gamma(kRoundings) * largest;
+  const Vector3 by{margin, margin, margin};
+  return {box.min - by, box.max + by};
+}
 
 }  // namespace
 
@@ -21,12 +35,12 @@ StillEmitters::StillEmitters(const FilmView& view, int depth)
       reach_{Reach(view.filter.XWidth()), Reach(view.filter.YWidth())},
       shutter_(view.camera.Shutter()),
       crop_(view.film.Crop()),
-      tiny_(view.filter) {
+      tiny_(view.filter, view.film.Crop()) {
   const RequiredFeatures& features = view.scene.Features();
   if (!features.Needs(Feature::Motion)) shutter_.max = shutter_.min;
   const bool hasLens = view.camera.HasLens() && features.Needs(Feature::Lens);
   const bool isBlurred = hasLens || view.camera.MovesWithin(shutter_);
-  if (isBlurred || view.camera.WorldToNdc() == Matrix4()) return;
+  if (isBlurred || HasNegativeValues(view.filter) || view.camera.WorldToNdc() == Matrix4()) return;
   const Point3 eye = view.camera.CameraToWorld().ApplyPoint({});
   const std::vector<Bounds3> moving = view.scene.Primitives().MovingEmitters(shutter_);
   for (const auto& light : view.scene.Lights()) {
@@ -44,8 +58,10 @@ StillEmitters::StillEmitters(const FilmView& view, int depth)
 }
 
 void StillEmitters::Mark(const Light& light, const Bounds3& box, const FilmView& view) {
-  const FilmBox onFilm(box, view.camera.WorldToNdc(), view.film.Full());
-  if (tiny_.Add({&light, onFilm}, crop_)) return;
+  const Matrix4 worldToNdc = view.camera.WorldToNdc();
+  const Point3 eye = view.camera.CameraToWorld().ApplyPoint({});
+  if (tiny_.Add({&light, {WithMargin(box, eye), worldToNdc, view.film.Full()}})) return;
+  const FilmBox onFilm(box, worldToNdc, view.film.Full());
   const PixelBounds marked =
       onFilm.Pixels(crop_, double(view.filter.XWidth()), double(view.filter.YWidth()));
   if (marked.IsEmpty()) return;

@@ -41,16 +41,16 @@ class StillEmitters {
   static constexpr int kRaysForReflections = 32;
 
   // Finds the pixels that may show one of the emitters. None is found if the camera moves or has a
-  // lens or no projection. `depth` is SurfaceIntegrator::EmissionDepth. The scene must outlive this
-  // object.
+  // lens or no projection, or if the filter has negative values. `depth` is
+  // SurfaceIntegrator::EmissionDepth. Scene and filter must outlive this object.
   StillEmitters(const FilmView& view, int depth);
 
   // Returns whether the pixels are those of this film.
   bool AreOf(const Film& film) const { return crop_ == film.Crop(); }
 
   // Returns the number of places for each sample of a pixel, a power of two: 1 if the filter of the
-  // pixel meets no box of an emitter. A box that contains the camera, or that lies within the box
-  // of a moving emitter, does not count.
+  // pixel meets no box of an emitter that is not tiny. A box that contains the camera, or that lies
+  // within the box of a moving emitter, does not count.
   int PlacesIn(Point2i pixel) const {
     return pixels_.empty() || !crop_.Contains(pixel.x, pixel.y) ? 1 : pixels_[IndexOf(pixel)];
   }
@@ -74,7 +74,7 @@ class StillEmitters {
     return int(std::bit_floor(unsigned(std::clamp(kRaysForReflections / most, 1, kMostPlaces))));
   }
 
-  // Returns the tiny emitters that the filter of a pixel shows. The number of places is for others.
+  // Returns the tiny emitters. PlacesIn does not count them, except in crowds.
   const TinyEmitters& Tiny() const { return tiny_; }
 
   // Returns the light of the emitter that the camera ray meets first.

@@ -32,19 +32,18 @@ class TinyEmitters {
     int places = 0;  // set by Add
   };
 
-  // The filter must have no negative values and outlive this object.
-  explicit TinyEmitters(const Filter& filter) : filter_(filter) {}
+  // For pixels of `crop`. The filter must have no negative values and outlive this object.
+  TinyEmitters(const Filter& filter, const PixelBounds& crop) : filter_(filter), crop_(crop) {}
 
-  // Adds an emitter to pixels. Returns whether it is tiny.
-  bool Add(Emitter emitter, const PixelBounds& crop);
+  // Adds an emitter. Returns whether it is tiny.
+  bool Add(Emitter emitter);
   // Ends the additions. Removes the emitters of pixels that have too many, and returns these
   // pixels.
   std::vector<Point2i> RemoveCrowds();
 
-  // Returns the emitters that the filter of a pixel may show, as indices for operator[].
+  // Returns the emitters that the filter of a pixel of the crop meets, as indices for operator[].
   struct InPixel {
-    int x, y;
-    std::uint32_t emitter;
+    std::uint32_t pixel, emitter;  // row by row in the crop; in the order of additions
   };
   std::span<const InPixel> In(Point2i pixel) const;
   // Returns the light without what comes first from one of these emitters.
@@ -54,16 +53,24 @@ class TinyEmitters {
   // Returns the filter's value at an offset from the centre of its pixel, for the integral 1. In
   // pixels^-2.
   Real FilterDensity(Point2 offset) const { return filter_.Evaluate(offset) / integral_; }
-  // Returns the part of an emitter's box that the filter of a pixel with this centre meets.
+  // Returns the part of an emitter's box that the filter of a pixel with this centre meets, in
+  // pixels.
   FilmBox BoxIn(const Emitter& emitter, Point2 centre) const {
     return emitter.box.Near(centre, double(filter_.XWidth()), double(filter_.YWidth()));
   }
 
  private:
+  std::uint32_t IndexOf(int x, int y) const {
+    return std::uint32_t(y - crop_.y0) * std::uint32_t(crop_.Width()) + std::uint32_t(x - crop_.x0);
+  }
+  bool IsMetIn(int x, int y, const Emitter& emitter) const;
+
   const Filter& filter_;
+  PixelBounds crop_;
   Real integral_ = 0;  // of the filter; 0: not known yet
   std::vector<Emitter> emitters_;
-  std::vector<InPixel> pixels_;  // row by row
+  std::vector<InPixel> pixels_;       // sorted by pixel
+  std::vector<std::uint8_t> counts_;  // of emitters in each pixel, up to kMost + 1; empty: none
 };
 
 }  // namespace exphoton

@@ -81,9 +81,10 @@ TEST_F(ChoiceTest, SaysHowMuchLightANamedIntegratorLacks) {
       Render(kBrightBead, {"--integrator", "path", "--stats-json", "room.json"});
   ASSERT_EQ(result.status, 0) << result.err;
   ExpectIn("accuracy 10%: integrator path, ", result.err);
-  ExpectIn("warning: integrator \"path\" finds ", result.err);
-  ExpectIn("% less light than exphotonmap, and the error does not contain this light", result.err);
-  ExpectIn("less light than exphotonmap\"", Read("room.json"));
+  ExpectIn("warning: the error does not contain about ", result.err);
+  ExpectIn(" % of the light that exphotonmap finds, because integrator \"path\" does not find it",
+           result.err);
+  ExpectIn("% of the light that exphotonmap finds\"", Read("room.json"));
   ExpectIn("accuracy/notCovered", Run({"info", "room.exr"}).out);
 }
 

@@ -82,6 +82,10 @@ class PilotRenderer {
   // Throws Error.
   PilotPicture Render(const PilotRequest& request);
 
+  // Names the integrators of later pilots (LoadOptions::comparedIntegrators).
+  void Compare(const std::vector<std::string>& integrators) {
+    small_.comparedIntegrators = fewer_.comparedIntegrators = integrators;
+  }
   // Ends the photons of later rough pilots after about this number of paths.
   void LimitRoughPaths(double paths);
 

@@ -19,10 +19,10 @@ PilotSeries::PilotSeries(PilotRenderer* pilots, const std::string& integrator, i
   model_.fixed = unit == Unit::CpuSeconds ? pilots->LoadSeconds() : 0;
 }
 
-// Returns the request of the first pilot. That of path is not rough.
+// Returns the request of the first pilot. It is rough before pictures, except for path.
 PilotRequest PilotSeries::FirstRequest() const {
   PilotRequest first = request_;
-  first.isRough = request_.integrator != "path";
+  first.isRough = unit_ == Unit::CountedCost && request_.integrator != "path";
   return first;
 }
 
