@@ -103,12 +103,17 @@ TEST_F(EmittedLightTest, TheNextPixelsAreAskedForReflections) {
 }
 
 TEST_F(EmittedLightTest, ALampThatMovesHasNoPlaces) {
-  const std::string lamp = "Shape \"sphere\" \"float radius\" .2\nAttributeEnd\n",
-                    before = "AttributeBegin\nAreaLightSource \"area\"\nTranslate 0 0 3\n";
-  Load(before + lamp);
-  EXPECT_GT(emitters_->PlacesIn({kLampWidth / 2, kLampHeight / 2}), 1);
-  Load(before + "ActiveTransform EndTime Translate .5 0 0 ActiveTransform All\n" + lamp);
-  EXPECT_EQ(emitters_->PlacesIn({kLampWidth / 2, kLampHeight / 2}), 1);
+  const Point2i pixel{kLampWidth / 2, kLampHeight / 2};
+  const std::string before = "AttributeBegin\nAreaLightSource \"area\"\nTranslate 0 0 3\n",
+                    moves = "ActiveTransform EndTime Translate .5 0 0 ActiveTransform All\n";
+  for (const std::string radius : {".5", ".1"}) {
+    const std::string lamp = "Shape \"sphere\" \"float radius\" " + radius + "\nAttributeEnd\n";
+    Load(before + lamp);
+    EXPECT_NE(emitters_->PlacesIn(pixel) > 1, !emitters_->Tiny().In(pixel).empty()) << radius;
+    Load(before + moves + lamp);
+    EXPECT_EQ(emitters_->PlacesIn(pixel), 1);
+    EXPECT_TRUE(emitters_->Tiny().In(pixel).empty());
+  }
 }
 
 // In the camera's space, a thin rod begins at (3, 0, -1) and ends at (-1, 0, 1). It passes the
