@@ -10,9 +10,8 @@ namespace exphoton {
 
 class FilmBox {
  public:
-  // `full` is the whole picture.
-  explicit FilmBox(const PixelBounds& full) : full_(full) {}
-  // Contains the part of the box that lies in front of a camera with this projection.
+  // Contains the part of the box that lies in front of a camera with this projection. `full` is the
+  // whole picture.
   FilmBox(const Bounds3& box, const Matrix4& worldToNdc, const PixelBounds& full);
 
   // Empty boxes have no place on the film.
