@@ -41,7 +41,7 @@ class ExrToolsTest : public ProgramTest {
   std::string tool_;
 };
 
-void ExpectIn(const std::string& text, std::initializer_list<const char*> parts) {
+void ExpectAllIn(const std::string& text, std::initializer_list<const char*> parts) {
   for (const char* part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << text;
 }
 
@@ -50,15 +50,15 @@ TEST_F(ExrToolsTest, ExrheaderKnowsTheStandardAttributesAndTheTypesOfChannels) {
   if (!HasTool()) return;
   RenderWithAovs();
   const std::string text = Output({"out.exr"});
-  ExpectIn(text,
-           {"chromaticities (type chromaticities):", "red   (0.64 0.33)", "white (0.3127 0.329)",
-            "whiteLuminance (type float): 179", "expTime (type float): 0.25",
-            "effects (type string): \"", "time/render (type float):",
-            "cpuTime/render (type float):", "worldToNDC (type m44f):"});
-  ExpectIn(text, {"albedo.R, 16-bit floating-point", "N.X, 16-bit floating-point",
-                  "P.X, 32-bit floating-point", "Z, 32-bit floating-point",
-                  "uv.U, 32-bit floating-point", "objectId.id, 32-bit floating-point",
-                  "materialId.id, 32-bit floating-point", "R, 16-bit floating-point"});
+  ExpectAllIn(text,
+              {"chromaticities (type chromaticities):", "red   (0.64 0.33)", "white (0.3127 0.329)",
+               "whiteLuminance (type float): 179", "expTime (type float): 0.25",
+               "effects (type string): \"", "time/render (type float):",
+               "cpuTime/render (type float):", "worldToNDC (type m44f):"});
+  ExpectAllIn(text, {"albedo.R, 16-bit floating-point", "N.X, 16-bit floating-point",
+                     "P.X, 32-bit floating-point", "Z, 32-bit floating-point",
+                     "uv.U, 32-bit floating-point", "objectId.id, 32-bit floating-point",
+                     "materialId.id, 32-bit floating-point", "R, 16-bit floating-point"});
   EXPECT_EQ(text.find("phaseTimes"), std::string::npos);
   const std::size_t effects = text.find("effects (type string)");
   EXPECT_LT(text.find('\n', effects) - effects, 120u) << "effects are names, not a table";
@@ -69,8 +69,8 @@ TEST_F(ExrToolsTest, OiiotoolKnowsThem) {
   if (!HasTool()) return;
   RenderWithAovs();
   const std::string text = Output({"--info", "-v", "out.exr"});
-  ExpectIn(text, {"chromaticities: 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329",
-                  "whiteLuminance: 179", "ExposureTime: 0.25", "Z (float)", "uv.U (float)"});
+  ExpectAllIn(text, {"chromaticities: 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329",
+                     "whiteLuminance: 179", "ExposureTime: 0.25", "Z (float)", "uv.U (float)"});
 }
 
 }  // namespace

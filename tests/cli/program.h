@@ -37,6 +37,14 @@ class ProgramTest : public testing::Test {
   // Returns the sorted names of all files, except the files that the test harness makes.
   std::vector<std::string> Files() const { return folder_.Names(); }
 
+  // Whether a text contains a part of it.
+  static void ExpectIn(const std::string& part, const std::string& text) {
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
+  }
+  static void ExpectNotIn(const std::string& part, const std::string& text) {
+    EXPECT_EQ(text.find(part), std::string::npos) << part << "\nis in\n" << text;
+  }
+
  private:
   TestFolder folder_;
 };

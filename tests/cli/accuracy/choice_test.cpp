@@ -42,9 +42,6 @@ class ChoiceTest : public ProgramTest {
     words.insert(words.end(), more.begin(), more.end());
     return Run(words);
   }
-  static void ExpectIn(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
-  }
 };
 
 TEST_F(ChoiceTest, LeavesOutIntegratorsThatNeverFindSomeLight) {

@@ -11,12 +11,6 @@ using Names = std::vector<std::string>;
 class ComparedSets : public ProgramTest {
  protected:
   ComparedSets() { Write("room.pbrt", SmallRoom()); }
-  static void ExpectIn(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
-  }
-  static void ExpectNotIn(const std::string& part, const std::string& text) {
-    EXPECT_EQ(text.find(part), std::string::npos) << part << "\nis in\n" << text;
-  }
 };
 
 TEST_F(ComparedSets, LeaveAnAccuracyTheChoiceAmongAllIntegrators) {

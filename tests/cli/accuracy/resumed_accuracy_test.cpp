@@ -83,10 +83,6 @@ class ResumedAccuracy : public ProgramTest {
     EXPECT_FALSE(Exists("room.partial.exr"));
     return whole.err;
   }
-
-  static void ExpectIn(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
-  }
 };
 
 const Names kShared{"room.pbrt",    "--integrator", "exphotonmap", "--accuracy", "3%",

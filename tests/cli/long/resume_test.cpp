@@ -38,9 +38,6 @@ class ResumedProgram : public ProgramTest {
     kill(process, signal);
     return Wait(process);
   }
-  static void ExpectIn(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
-  }
 };
 
 TEST_F(ResumedProgram, ContinuesToTheSameBytes) {

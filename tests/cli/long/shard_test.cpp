@@ -55,9 +55,6 @@ class Shards : public ProgramTest {
     EXPECT_EQ(result.status, 0) << result.err;
     return result.out;
   }
-  static void ExpectIn(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
-  }
   void ExpectRefused(int status, const std::string& reason) const {
     const ProgramResult result = Merge();
     EXPECT_EQ(result.status, status) << result.err;

@@ -48,9 +48,6 @@ class StoppingTest : public ProgramTest {
     }
     return false;
   }
-  static void ExpectIn(const std::string& part, const std::string& text) {
-    EXPECT_NE(text.find(part), std::string::npos) << part << "\nnot in\n" << text;
-  }
 };
 
 TEST_F(StoppingTest, SaysWhatATargetReached) {
