@@ -115,15 +115,17 @@ Spectrum PhotonIntegrator::Caustic(const ShadingPoint& point, LiContext& context
 
 Spectrum PhotonIntegrator::Seen(PhotonKind kind, const ShadingPoint& point,
                                 LiContext& context) const {
-  Spectrum signedRadiance;
-  const Spectrum radiance = maps_.Radiance(kind, point, &context.arena, LobeSet::NonSpecular,
-                                           context.signedLight ? &signedRadiance : nullptr);
+  Spectrum signedRadiance, radiance;
+  Spectrum* const sign = context.signedLight ? &signedRadiance : nullptr;
+  const auto isTraced = [&] { return kind == PhotonKind::Caustic && causticCorrection_->Guide(); };
+  if (context.correction && !isTraced()) {
+    const auto corrected = maps_.Corrected(kind, point, &context.arena, LobeSet::NonSpecular, sign);
+    context.correction->sum += point.throughput * corrected.correction;
+    radiance = corrected.radiance;
+  } else {
+    radiance = maps_.Radiance(kind, point, &context.arena, LobeSet::NonSpecular, sign);
+  }
   if (context.signedLight) *context.signedLight += point.throughput * signedRadiance;
-  if (!context.correction) return radiance;
-  const bool isTraced = kind == PhotonKind::Caustic && causticCorrection_->Guide();
-  if (!isTraced)
-    context.correction->sum +=
-        point.throughput * maps_.KernelCorrection(kind, point, &context.arena);
   return radiance;
 }
 

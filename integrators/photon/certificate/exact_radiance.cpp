@@ -88,9 +88,9 @@ Spectrum ExactRadiance::Caustic(const ShadingPoint& point) {
   const LobeSet lobes = gather_.MappedLobes();
   if (sources_.causticGuide)
     return CausticRays(*sources_.causticGuide, cone_, context_, random_).Sample(point, lobes);
-  const PhotonMapSet& maps = sources_.maps;
-  return maps.Radiance(PhotonKind::Caustic, point, &context_.arena, lobes) +
-         maps.KernelCorrection(PhotonKind::Caustic, point, &context_.arena, lobes);
+  const auto corrected =
+      sources_.maps.Corrected(PhotonKind::Caustic, point, &context_.arena, lobes);
+  return corrected.radiance + corrected.correction;
 }
 
 ExactRadiance::Rays ExactRadiance::RaysAt(const ShadingPoint& point) {

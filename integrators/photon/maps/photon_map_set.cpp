@@ -67,16 +67,18 @@ Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Aren
   return radiance;
 }
 
-Spectrum PhotonMapSet::KernelCorrection(PhotonKind kind, const ShadingPoint& point, Arena* arena,
-                                        LobeSet lobes) const {
+PhotonMapSet::CorrectedRadiance PhotonMapSet::Corrected(PhotonKind kind, const ShadingPoint& point,
+                                                        Arena* arena, LobeSet lobes,
+                                                        Spectrum* signedRadiance) const {
+  if (signedRadiance) *signedRadiance = {};
   if (Map(kind).IsEmpty() || !point.bsdf.Has(lobes)) return {};
   const Arena::Mark mark = arena->GetMark();
   const Part part{kind, lobes};
   const PhotonNeighbourhood around = Around(part, point, arena);
-  const Spectrum wide = Estimate(part, point, around, around.radius2, nullptr);
+  const Spectrum wide = Estimate(part, point, around, around.radius2, signedRadiance);
   const Spectrum narrow = Estimate(part, point, around, around.radius2 / 2, nullptr);
   arena->Rewind(mark);
-  return (narrow - wide) * 2;
+  return {wide, (narrow - wide) * 2};
 }
 
 PhotonNeighbourhood PhotonMapSet::Around(const Part& part, const ShadingPoint& point,

@@ -42,12 +42,16 @@ class PhotonMapSet {
   Spectrum Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes = LobeSet::NonSpecular,
                     Spectrum* signedRadiance = nullptr) const;
 
-  // Estimates the true radiance minus Radiance(kind, ...), as far as the kernel's blur causes the
-  // difference. The bias of a smooth illumination grows with the square of the radius. The same
-  // photons within r / sqrt(2) have half the bias, so twice the difference of the two estimates is
-  // minus the bias (Richardson 1911).
-  Spectrum KernelCorrection(PhotonKind kind, const ShadingPoint& point, Arena* arena,
-                            LobeSet lobes = LobeSet::NonSpecular) const;
+  // Returns Radiance(kind, ...), and an estimate of the true radiance minus it, as far as the
+  // kernel's blur causes the difference. The bias of a smooth illumination grows with the square of
+  // the radius. The same photons within r / sqrt(2) have half the bias, so twice the difference of
+  // the two estimates is minus the bias (Richardson 1911).
+  struct CorrectedRadiance {
+    Spectrum radiance, correction;
+  };
+  CorrectedRadiance Corrected(PhotonKind kind, const ShadingPoint& point, Arena* arena,
+                              LobeSet lobes = LobeSet::NonSpecular,
+                              Spectrum* signedRadiance = nullptr) const;
 
   // Returns the photons per unit area, of all three maps, that an estimate at the point would use.
   double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
