@@ -92,27 +92,22 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   const Certificate* const ofMaps = estimate.ofMaps ? estimate.ofMaps : certificate;
   mapBias_ = ofMaps ? ofMaps->bias.squared - estimate.photonNoise : 0;
   lowerMapBias_ = ofMaps ? ofMaps->bias.lower - estimate.photonNoise : 0;
-  const double left = room_ - bias - estimate.fixedNoise;
-  growth_ = left > 0 ? (estimate.noise - estimate.fixedNoise + normal) / left
-                     : std::numeric_limits<double>::infinity();
   const bool isKept = PhotonSets::AreKept(estimate.fixedNoise, RoomForNoise());
   const double fixed = isKept ? estimate.fixedNoise : 0;
   const bool isShared = certificate && certificate->sharing;
   const double sharing = isShared ? std::max(certificate->sharing->squared, 0.) : 0;
-  likelyGrowth_ =
-      GrowthUntil({estimate.noise - fixed + normal, sharing, fixed + bias - sharing}, room_);
+  growth_ = GrowthUntil({estimate.noise - fixed + normal, sharing, fixed + bias - sharing}, room_);
   const double leastNoise = std::max(estimate.noise - estimate.noiseError - fixed, 0.);
   leastGrowth_ = IsOutOfReach() ? 1 : GrowthUntil({leastNoise, 0, fixed}, room_ - lowerBias_);
 }
 
 void AccuracyRule::Transfer(ByteArchive* archive) {
   constexpr int kMostLooks = 1 << 30;
-  archive->Values(&looks_, &upper_, &bias_, &lowerBias_, &growth_, &likelyGrowth_);
+  archive->Values(&looks_, &upper_, &bias_, &lowerBias_, &growth_);
   archive->Values(&mapBias_, &lowerMapBias_, &leastGrowth_);
   const bool isPossible = looks_ >= 0 && looks_ <= kMostLooks && upper_ >= 0 && bias_ >= 0 &&
-                          lowerBias_ >= 0 && growth_ >= 0 && likelyGrowth_ >= 0 &&
-                          leastGrowth_ >= 0 && std::isfinite(mapBias_) &&
-                          std::isfinite(lowerMapBias_);
+                          lowerBias_ >= 0 && growth_ >= 0 && leastGrowth_ >= 0 &&
+                          std::isfinite(mapBias_) && std::isfinite(lowerMapBias_);
   if (!isPossible) throw ArchiveError("its looks at the error are impossible");
 }
 

@@ -60,19 +60,16 @@ class AccuracyRule {
   // from done, so that it should begin again with more photons.
   bool NeedsMorePhotons() const {
     return mapBias_ > kMostMapBias * room_ && lowerMapBias_ > kSureMapBias * room_ &&
-           likelyGrowth_ > kFarGrowth;
+           growth_ > kFarGrowth;
   }
   // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
   double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
   // Returns the factor by which the number of samples must grow, if noise and the width of the
-  // interval fall as 1 / samples. The interval is the one of normal noise, because groups, rather
-  // than samples, give the noise degrees of freedom. Returns infinity if bias and fixed noise leave
-  // no room.
+  // interval fall as 1 / samples, the bias of shared gathers falls by kSharingSlope, and photons
+  // that are shot again lower the fixed noise. The interval is the one of normal noise, because
+  // groups, rather than samples, give the noise degrees of freedom. Returns infinity if the rest of
+  // the bias leaves no room.
   double Growth() const { return growth_; }
-  // The same if the bias of shared gathers falls too (kSharingSlope), and if photons that are shot
-  // again lower the fixed noise. This mean exponent is good for planning the next look. It does not
-  // show whether to share, because the exponents of scenes differ.
-  double LikelyGrowth() const { return likelyGrowth_; }
   // The same if the noise is one standard error lower than estimated, and the bias as low as its
   // interval allows.
   double LeastGrowth() const { return leastGrowth_; }
@@ -102,7 +99,7 @@ class AccuracyRule {
   int looks_ = 0;
   double upper_ = std::numeric_limits<double>::infinity();  // before the first look
   double bias_ = 0, lowerBias_ = 0, mapBias_ = 0, lowerMapBias_ = 0;
-  double growth_ = 1, likelyGrowth_ = 1, leastGrowth_ = 1;
+  double growth_ = 1, leastGrowth_ = 1;
 };
 
 }  // namespace exphoton

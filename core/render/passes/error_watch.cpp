@@ -144,7 +144,7 @@ void ErrorWatch::Look(const NoiseOfPhotons& noise) {
       MayBeBetterUnshared(*certificate->sharing))
     LookWithoutSharing(noise);
   const auto samples = double(picture_.sum->SamplesPerPixel());
-  neededSamples_ = samples * rule_->LikelyGrowth();
+  neededSamples_ = samples * rule_->Growth();
   leastSamples_ = samples * rule_->LeastGrowth();
   isTooDear_ = rule_->IsDearerThan(rivalSamples_, samples);
 }

@@ -51,6 +51,7 @@ class FragmentRows {
     const std::size_t row = IndexOf({bounds_.x0, y});
     return {first_[row + std::size_t(x0 - bounds_.x0)], first_[row + std::size_t(x1 - bounds_.x0)]};
   }
+  std::size_t Count() const { return first_.back(); }  // of all fragments
   std::size_t First(Point2i pixel) const { return first_[IndexOf(pixel)]; }
 
  private:

@@ -30,9 +30,10 @@ void AddTo(GatherFragment* fragment, const GatherFragment& added) {
 
 }  // namespace
 
-// A fragment is kept in its pixel and in the columns of FragmentRows. Most pixels have one.
+// A fragment is kept in its pixel and in the columns of FragmentRows, and its fit takes about as
+// much (fragment_fits.cpp). Most pixels have one.
 double GatherFragments::BytesPerPixel(std::int64_t samplesPerPixel) {
-  return double(sizeof(Pixel) + 2 * sizeof(GatherFragment)) +
+  return double(sizeof(Pixel) + 3 * sizeof(GatherFragment)) +
          double(samplesPerPixel) * double(sizeof(GatherSample));
 }
 

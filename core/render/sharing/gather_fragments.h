@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // GatherFragments stores the gathers of a picture. The records of a pixel that lie on one surface
 // form a fragment. The camera samples are divided into four groups with independent gathers. The
-// first two groups choose how far gathers are shared, and the other two check the choice.
+// first two groups choose how far gathers are shared, and the other two check the choice. All
+// groups show how much of the light is shared.
 #pragma once
 
 #include <algorithm>
@@ -92,8 +93,8 @@ class GatherFragments {
   // Throws Error(Resource) if memory is insufficient for this number of samples a pixel.
   GatherFragments(const PixelBounds& bounds, std::int64_t samplesPerPixel);
 
-  // Returns the memory of a pixel, including FragmentRows. A pixel on an edge takes more, because
-  // each part of a divided sample takes the place of a sample.
+  // Returns the memory of a pixel, including FragmentRows and FragmentFits. A pixel on an edge
+  // takes more, because each part of a divided sample takes the place of a sample.
   static double BytesPerPixel(std::int64_t samplesPerPixel);
 
   // Moves the bounds down, to rows y0 to y1 - 1. Rows that stay within the bounds keep their

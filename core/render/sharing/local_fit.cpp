@@ -55,7 +55,8 @@ void Factor(Matrix* matrix) {
   });
 }
 
-// The right sides of all channels. The fourth one is 0, so that each row is two SIMD registers.
+// The right sides of all channels. The fourth one belongs to one record with the light 1 at the
+// target.
 using Channels = std::array<double, 4>;
 using RightSides = std::array<Channels, kFitFeatures>;
 
@@ -87,6 +88,7 @@ RightSides SolutionOf(const FitMoments& moments, double filmVariance) {
   RightSides sides{};
   for (std::size_t i = 0; i < kSize; ++i)
     for (std::size_t c = 0; c < Spectrum::kChannels; ++c) sides[i][c] = double(moments.right[i][c]);
+  sides[0][3] = 1;
   Solve<kSize>(matrix, &sides);
   return sides;
 }
@@ -146,6 +148,7 @@ LocalFit::LocalFit(const FitNeighbours& neighbours, Real radius, FragmentRows::C
                                   : SolutionOf<3>(moments, filmVariance);
   for (std::size_t i = 0; i < kFitFeatures; ++i)
     coefficients_[i] = {Real(solution[i][0]), Real(solution[i][1]), Real(solution[i][2])};
+  influence_ = Real(solution[0][3]);
 }
 
 Spectrum LocalFit::At(const FitFeatures& features) const {

@@ -88,12 +88,14 @@ class LocalFit {
   bool IsEmpty() const { return !(total_ > 0); }  // no record had a weight
   Spectrum At(const FitFeatures& features) const;
   const Spectrum& AtTarget() const { return coefficients_[0]; }
+  // Returns the part of AtTarget() that the light of one record at the target has.
+  double InfluenceOfRecord() const { return double(influence_); }
 
   static std::span<const LocalFitLoops* const> Loops();  // for this machine, widest last
 
  private:
   std::array<Spectrum, kFitFeatures> coefficients_{};
-  Real total_ = 0;
+  Real total_ = 0, influence_ = 0;
 };
 
 }  // namespace exphoton

@@ -9,19 +9,16 @@
 #include "core/render/certificate/corrections.h"
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/local_fit.h"
-#include "core/render/sharing/sharing_windows.h"
 #include "core/render/sharing_change.h"
 
 namespace exphoton {
 namespace {
 
-// The fit around one fragment, blended with the samples' own light where the window is small.
+// The fit around one fragment, blended with the samples' own light.
 class FragmentLight {
  public:
-  explicit FragmentLight(const WindowFit& window)
-      : target_(window.Target()),
-        share_(window.Window().share),
-        fit_(window.To(FragmentRows::All)) {}
+  FragmentLight(const GatherFragment& fragment, const std::optional<LocalFit>& fit, Real share)
+      : target_(fragment), fit_(fit), share_(share) {}
 
   Spectrum At(const GatherSample& sample) const {
     if (!fit_) return sample.light;
@@ -31,25 +28,25 @@ class FragmentLight {
 
  private:
   FitTarget target_;
+  const std::optional<LocalFit>& fit_;
   Real share_;
-  std::optional<LocalFit> fit_;
 };
 
-// The fits of all fragments of one pixel after the other.
+// The lights of all fragments of one pixel after the other.
 class PixelLights {
  public:
-  PixelLights(const FragmentRows& rows, const SharingWindows& windows, FitNeighbours* scratch)
-      : rows_(rows), windows_(windows), scratch_(scratch) {}
+  explicit PixelLights(const SharingChoice& choice) : choice_(choice) {}
 
-  // Fits the light of a pixel, and checks its fits if `check` is not empty.
-  void Fit(Point2i pixel, const GatherFragments::Pixel& gathered,
-           std::optional<PixelCheck>* check) {
+  // `fits` has the fits of the pixel's fragments. Adds their differences to `check` (null: none).
+  void Set(Point2i pixel, const GatherFragments::Pixel& gathered, const FragmentFit* fits,
+           PixelCheck* check) {
     lights_.clear();
     for (std::size_t i = 0; i < gathered.fragments.size(); ++i) {
-      const WindowFit fit(rows_, windows_, {pixel, gathered.fragments[i]}, scratch_);
-      lights_.emplace_back(fit);
-      if (*check && (*check)->HasGroup(i)) (*check)->Add(i, fit);
-      totals_.radii += double(fit.Window().radius * fit.Window().share);
+      const SharingWindows::Window& window = fits[i].window;
+      const Real share = choice_.ShareOf(pixel, gathered.fragments[i], window);
+      lights_.emplace_back(gathered.fragments[i], fits[i].fit, share);
+      if (check && fits[i].checked) check->Add(i, *fits[i].checked * share);
+      totals_.radii += double(window.radius * window.share);
       totals_.fragments += 1;
     }
   }
@@ -57,14 +54,20 @@ class PixelLights {
   const SharingTotals& Totals() const { return totals_; }
 
  private:
-  const FragmentRows& rows_;
-  const SharingWindows& windows_;
-  FitNeighbours* scratch_;
+  const SharingChoice& choice_;
   std::vector<FragmentLight> lights_;
   SharingTotals totals_;
 };
 
 Aov AovOf(const GatherSample& sample) { return sample.depth == 0 ? Aov::Indirect : Aov::Specular; }
+
+// Returns the groups whose fits must be checked while their neighbours are at hand.
+FragmentFits::GroupOf GroupsOf(const GatherFragments& gathers, const SharingRequest& request) {
+  if (!request.isChecked) return {};
+  return [&gathers, window = request.window](Point2i pixel) {
+    return SharingChecker::GroupOf(gathers, pixel, window);
+  };
+}
 
 // Reports what sharing changes. L is the shared light of a sample.
 void AddChange(const SharedLightTarget& target, Point2i pixel, const GatherSample& sample,
@@ -133,27 +136,40 @@ void AddOwnLight(const GatherFragments& gathers, const SharedLightTarget& target
   });
 }
 
-int SharingMargin() { return SharingWindows::kReach; }
+int SharingMargin() { return SharingWindows::kReach + SharingShares::kReach; }
 
-SharedGathers::SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea)
+SharedGathers::SharedGathers(const GatherFragments& gathers, const SharingRequest& request,
+                             ThreadPool* threads)
     : gathers_(gathers),
       threads_(threads),
       rows_(gathers),
-      own_(std::in_place, gathers, rows_, threads),
-      windows_(*own_) {
-  own_->Shrink(windowArea);
-}
+      own_(std::in_place, gathers, rows_,
+           SharingChoice::Request{request.window, request.windowArea, GroupsOf(gathers, request)},
+           threads),
+      choice_(*own_),
+      fits_(own_->Fits()),
+      isChecked_(request.isChecked) {}
 
-SharedGathers::SharedGathers(const GatherFragments& gathers, const SharingWindows& windows,
-                             ThreadPool* threads)
-    : gathers_(gathers), threads_(threads), rows_(gathers), windows_(windows) {}
+SharedGathers::SharedGathers(const GatherFragments& gathers, const SharingChoice& choice,
+                             const PixelBounds& window, ThreadPool* threads)
+    : gathers_(gathers),
+      threads_(threads),
+      rows_(gathers),
+      choice_(choice),
+      others_(std::in_place, FragmentFits::Source{gathers, rows_, choice.Windows()}, window,
+              FragmentFits::GroupOf(), threads),
+      fits_(*others_) {}
+
+SharingChecker SharedGathers::CheckerOf(double samplesPerPixel) const {
+  return {gathers_, rows_, choice_, samplesPerPixel};
+}
 
 SharingTotals SharedGathers::AddLight(const SharedLightTarget& target) const {
   const PixelBounds& window = target.window;
   std::vector<FitNeighbours> scratch(std::size_t(threads_->Count()));
   std::vector<SharingTotals> totals(std::size_t(window.Height()));  // by row
   std::optional<PixelDifferences> differences;
-  if (target.isChecked) differences.emplace(window);
+  if (isChecked_) differences.emplace(window);
   threads_->For(window.Height(), [&](std::int64_t row, int worker) {
     totals[std::size_t(row)] =
         AddRow(target, window.y0 + int(row), differences ? &*differences : nullptr,
@@ -167,15 +183,15 @@ SharingTotals SharedGathers::AddLight(const SharedLightTarget& target) const {
 
 SharingTotals SharedGathers::AddRow(const SharedLightTarget& target, int y,
                                     PixelDifferences* differences, FitNeighbours* scratch) const {
-  const SharingChecker checker(gathers_, rows_, windows_, target.samplesPerPixel);
-  PixelLights lights(rows_, windows_, scratch);
+  const SharingChecker checker = CheckerOf(target.samplesPerPixel);
+  PixelLights lights(choice_);
   SplatBuffer::Pixel splat;
   for (int x = target.window.x0; x < target.window.x1; ++x) {
     const Point2i pixel{x, y};
     const GatherFragments::Pixel& gathered = gathers_.At(pixel);
-    std::optional<PixelCheck> check =
-        differences ? checker.Begin(pixel, target.window) : std::nullopt;
-    lights.Fit(pixel, gathered, &check);
+    std::optional<PixelCheck> check;
+    if (differences) check.emplace(gathered, target.samplesPerPixel);
+    lights.Set(pixel, gathered, fits_.At(pixel), check ? &*check : nullptr);
     if (check) differences->At(pixel) = check->Difference();
     AddBias(target, pixel, checker, scratch);
     AddSamples(target, pixel, gathered, lights, &splat);
@@ -191,7 +207,7 @@ std::vector<CheckedPixel> SharedGathers::Check(const PixelBounds& window,
 std::vector<CheckedPixel> SharedGathers::CheckRows(const PixelBounds& window,
                                                    double samplesPerPixel,
                                                    const PixelDifferences* known) const {
-  const SharingChecker checker(gathers_, rows_, windows_, samplesPerPixel);
+  const SharingChecker checker = CheckerOf(samplesPerPixel);
   std::vector<FitNeighbours> scratch(std::size_t(threads_->Count()));
   std::vector<std::vector<CheckedPixel>> rows(std::size_t(window.Height()));
   threads_->For(window.Height(), [&](std::int64_t row, int worker) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SharedGathers adds diffuse indirect light to a picture after all its pixels are rendered.
-// Neighbouring pixels on one surface gather nearly the same light, so each camera sample takes its
-// light from a local fit to the gathers around it. Window sizes are chosen by cross-validation
-// (sharing_windows.h). docs/decisions/0033-shared-gathers.md has the measurements.
+// Neighbouring pixels on one surface gather nearly the same light, so each camera sample takes a
+// part of its light from a local fit to the gathers around it. The folder windows/ chooses how far
+// the fits reach, and how large this part is. docs/decisions/0033-shared-gathers.md has the
+// measurements.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/gather_fragments.h"
 #include "core/render/sharing/sharing_bias.h"
-#include "core/render/sharing/sharing_windows.h"
+#include "core/render/sharing/windows/sharing_choice.h"
 #include "core/render/splat_buffer.h"
 
 namespace exphoton {
@@ -35,7 +36,6 @@ struct SharedLightTarget {
   double samplesPerPixel;
   Corrections* corrections = nullptr;  // receives own light minus shared light; null: none
   SharingChange* change = nullptr;     // receives shared light minus own light; needs no splats
-  bool isChecked = false;              // whether the totals have the results of Check
 };
 // SharingTotals adds up the radii of the windows over the fragments, in pixels, and collects the
 // checked pixels if they are wanted.
@@ -55,36 +55,47 @@ struct SharingTotals {
 void AddOwnLight(const GatherFragments& gathers, const SharedLightTarget& target,
                  ThreadPool* threads);
 
-// The gathers, the threads and windows that are passed must outlive this object.
+struct SharingRequest {
+  PixelBounds window;      // the pixels that get their light
+  double windowArea = 1;   // as in SharingChoice::Request
+  bool isChecked = false;  // whether the totals have the results of Check
+};
+
+// The gathers, the threads and a choice that is passed must outlive this object.
 class SharedGathers {
  public:
-  // `windowArea` is the area of the windows, relative to those that cross-validation chooses.
-  SharedGathers(const GatherFragments& gathers, ThreadPool* threads, double windowArea = 1);
+  SharedGathers(const GatherFragments& gathers, const SharingRequest& request, ThreadPool* threads);
 
-  // Shares with windows that other gathers have chosen.
-  SharedGathers(const GatherFragments& gathers, const SharingWindows& windows, ThreadPool* threads);
+  // Shares in `window` as other gathers have chosen.
+  SharedGathers(const GatherFragments& gathers, const SharingChoice& choice,
+                const PixelBounds& window, ThreadPool* threads);
   SharedGathers(const SharedGathers&) = delete;
   SharedGathers& operator=(const SharedGathers&) = delete;
 
-  // Returns the radii of the windows, and the checked pixels if they are wanted.
+  // Returns the radii of the windows, and the checked pixels if they are wanted. The window of the
+  // target must be the one of this object.
   SharingTotals AddLight(const SharedLightTarget& target) const;
   // Returns what EstimateSharingBias needs. It collects the neighbours of three pixels of four
-  // again and fits their light. AddLight can do it with the neighbours that it has, at half of this
-  // cost.
+  // again and fits their light. A request that is checked does it with the neighbours at hand, at
+  // half of this cost.
   std::vector<CheckedPixel> Check(const PixelBounds& window, double samplesPerPixel) const;
 
  private:
   // Fills the differences of the row if they are not null.
   SharingTotals AddRow(const SharedLightTarget& target, int y, PixelDifferences* differences,
                        FitNeighbours* scratch) const;
+  SharingChecker CheckerOf(double samplesPerPixel) const;
   std::vector<CheckedPixel> CheckRows(const PixelBounds& window, double samplesPerPixel,
                                       const PixelDifferences* known) const;
 
   const GatherFragments& gathers_;
   ThreadPool* threads_;
   FragmentRows rows_;
-  std::optional<SharingWindows> own_;  // the windows, if these gathers have chosen them
-  const SharingWindows& windows_;
+  std::optional<SharingChoice> own_;  // if these gathers have chosen
+  const SharingChoice& choice_;
+  std::optional<FragmentFits> others_;  // fits to these gathers, if others have chosen
+  const FragmentFits& fits_;
+  bool isChecked_ = false;
 };
 
 }  // namespace exphoton

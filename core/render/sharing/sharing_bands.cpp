@@ -46,11 +46,9 @@ SharingBands::SharingBands(const PixelBounds& window, const PixelBounds& gathere
 
 void SharingBands::AddLight(ThreadPool* threads, double windowArea,
                             const SharedLightTarget& target) {
-  const SharedGathers shared(gathers_, threads, windowArea);
-  SharedLightTarget checkedTarget = target;
   // The picture with and without sharing shows the bias without checks.
-  checkedTarget.isChecked = !target.change;
-  totals_.Add(shared.AddLight(checkedTarget));
+  const SharedGathers shared(gathers_, {target.window, windowArea, !target.change}, threads);
+  totals_.Add(shared.AddLight(target));
 }
 
 void SharingBands::GoToNext() {

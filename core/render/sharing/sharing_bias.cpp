@@ -28,6 +28,11 @@ std::vector<Spectrum> WeightsOf(const GatherFragments::Pixel& gathered, double s
   return weights;
 }
 
+bool HasRecords(const GatherFragments::Pixel& pixel, int group) {
+  return std::any_of(pixel.fragments.begin(), pixel.fragments.end(),
+                     [&](const GatherFragment& fragment) { return fragment.HasGroup(group); });
+}
+
 double RelativeProduct(const CheckedPixel& checked, std::size_t direction, const Film& film) {
   const auto mean = film.MeanOf(checked.pixel);
   double sum = 0;
@@ -67,28 +72,22 @@ std::optional<SharingBias> EstimateAlong(std::size_t direction,
 
 }  // namespace
 
-PixelCheck::PixelCheck(const GatherFragments::Pixel& gathered, int group, double samples)
-    : gathered_(gathered), group_(group), weights_(WeightsOf(gathered, samples)) {}
+PixelCheck::PixelCheck(const GatherFragments::Pixel& gathered, double samples)
+    : weights_(WeightsOf(gathered, samples)) {}
 
-bool PixelCheck::HasGroup(std::size_t fragment) const {
-  return gathered_.fragments[fragment].HasGroup(group_);
-}
-
-void PixelCheck::Add(std::size_t fragment, const WindowFit& fit) {
+void PixelCheck::Add(std::size_t fragment, const Spectrum& difference) {
   if (!sum_) sum_.emplace();
-  const auto fitted = fit.To(FragmentRows::OfGroup(group_));
-  if (!fitted) return;
-  const Spectrum own = gathered_.fragments[fragment].Mean(group_);
-  *sum_ += weights_[fragment] * (fitted->AtTarget() - own) * fit.Window().share;
+  *sum_ += weights_[fragment] * difference;
 }
 
-std::optional<PixelCheck> SharingChecker::Begin(Point2i pixel, const PixelBounds& window) const {
-  const auto begin = [&](int group) { return PixelCheck(gathers_.At(pixel), group, samples_); };
-  if (IsChecked(pixel)) return begin(kCheckingGroups[0]);
+std::optional<int> SharingChecker::GroupOf(const GatherFragments& gathers, Point2i pixel,
+                                           const PixelBounds& window) {
+  if (!window.Contains(pixel.x, pixel.y)) return std::nullopt;
+  if (IsChecked(pixel)) return kCheckingGroups[0];
   for (const Point2i checked : {Point2i{pixel.x - 1, pixel.y}, Point2i{pixel.x, pixel.y - 1}})
     if (window.Contains(checked.x, checked.y) && IsChecked(checked) &&
-        HasRecords(checked, kCheckingGroups[0]))
-      return begin(kCheckingGroups[1]);
+        HasRecords(gathers.At(checked), kCheckingGroups[0]))
+      return kCheckingGroups[1];
   return std::nullopt;
 }
 
@@ -125,19 +124,16 @@ Spectrum SharingChecker::Bias(Point2i pixel, FitNeighbours* scratch) const {
   return {};
 }
 
-bool SharingChecker::HasRecords(Point2i pixel, int group) const {
-  const auto& fragments = gathers_.At(pixel).fragments;
-  return std::any_of(fragments.begin(), fragments.end(),
-                     [&](const GatherFragment& fragment) { return fragment.HasGroup(group); });
-}
-
 std::optional<Spectrum> SharingChecker::Difference(Point2i pixel, int group,
                                                    FitNeighbours* scratch) const {
   const GatherFragments::Pixel& gathered = gathers_.At(pixel);
-  PixelCheck check(gathered, group, samples_);
-  for (std::size_t i = 0; i < gathered.fragments.size(); ++i)
-    if (check.HasGroup(i))
-      check.Add(i, WindowFit(rows_, windows_, {pixel, gathered.fragments[i]}, scratch));
+  PixelCheck check(gathered, samples_);
+  for (std::size_t i = 0; i < gathered.fragments.size(); ++i) {
+    const GatherFragment& fragment = gathered.fragments[i];
+    if (!fragment.HasGroup(group)) continue;
+    const WindowFit fit(rows_, choice_.Windows(), {pixel, fragment}, scratch);
+    check.Add(i, fit.Difference(group) * choice_.ShareOf(pixel, fragment, fit.Window()));
+  }
   return check.Difference();
 }
 

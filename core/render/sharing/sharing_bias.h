@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SharingBias estimates the error that shared gathers add to a picture. The windows depend on the
-// choosing groups of samples only. In a pixel of a checking group, the difference between the fit
-// to this group and the pixel's own gathers is the bias of the fit plus noise. The noise of
-// neighbouring pixels is independent, because they belong to different checking groups. The product
-// of their differences therefore has the squared bias as its expected value, where the bias of the
-// two pixels is equal.
+// choosing groups of samples only. The shares of the fits depend on products within pixels, which
+// have other noise than the products here (docs/decisions/0107-shares-of-fits.md). In a pixel of a
+// checking group, the difference between the fit to this group and the pixel's own gathers is the
+// bias of the fit plus noise. Both count with the share of the fit. The noise of neighbouring
+// pixels is independent, because they belong to different checking groups. The product of their
+// differences therefore has the squared bias as its expected value, where the bias of the two
+// pixels is equal.
 #pragma once
 
 #include <array>
@@ -15,7 +17,7 @@
 #include "core/render/sharing/fragment_rows.h"
 #include "core/render/sharing/gather_fragments.h"
 #include "core/render/sharing/sharing_estimate.h"
-#include "core/render/sharing/sharing_windows.h"
+#include "core/render/sharing/windows/sharing_choice.h"
 
 namespace exphoton {
 
@@ -28,20 +30,18 @@ struct CheckedPixel {
 };
 
 // PixelCheck adds up, over the fragments of a pixel, the fit to a checking group minus the pixel's
-// own gathers of this group, in radiance. The expected value of the sum is the bias of the fit.
-// `samples` is the number of camera samples of a pixel.
+// own gathers of this group, times the share of the fit, in radiance. The expected value of the sum
+// is the bias of the shared light. `samples` is the number of camera samples of a pixel.
 class PixelCheck {
  public:
-  PixelCheck(const GatherFragments::Pixel& gathered, int group, double samples);
-  // Returns whether a fragment has records of the group, so that its fit must be added.
-  bool HasGroup(std::size_t fragment) const;
-  void Add(std::size_t fragment, const WindowFit& fit);
+  PixelCheck(const GatherFragments::Pixel& gathered, double samples);
+  // Adds a fragment that has records of the group, with WindowFit::Difference times the share of
+  // the fit.
+  void Add(std::size_t fragment, const Spectrum& difference);
   // Returns nullopt if no fragment was added.
   const std::optional<Spectrum>& Difference() const { return sum_; }
 
  private:
-  const GatherFragments::Pixel& gathered_;
-  int group_;
   std::vector<Spectrum> weights_;  // of the fragments' light in the pixel
   std::optional<Spectrum> sum_;
 };
@@ -69,27 +69,27 @@ class PixelDifferences {
 // camera samples of a pixel.
 class SharingChecker {
  public:
+  // The arguments must outlive this object.
   SharingChecker(const GatherFragments& gathers, const FragmentRows& rows,
-                 const SharingWindows& windows, double samples)
-      : gathers_(gathers), rows_(rows), windows_(windows), samples_(samples) {}
+                 const SharingChoice& choice, double samples)
+      : gathers_(gathers), rows_(rows), choice_(choice), samples_(samples) {}
 
-  // Returns the empty check that the checked pixels of the window need of this pixel; nullopt:
-  // none.
-  std::optional<PixelCheck> Begin(Point2i pixel, const PixelBounds& window) const;
+  // Returns the group that the checked pixels of the window need of this pixel; nullopt: none.
+  static std::optional<int> GroupOf(const GatherFragments& gathers, Point2i pixel,
+                                    const PixelBounds& window);
   // Returns nullopt for pixels that are not checked, and where a pixel has no record of its
-  // checking group. `known` has the differences that Begin asks for in a window (null: none).
+  // checking group. `known` has the differences for GroupOf in a window (null: none).
   std::optional<CheckedPixel> Check(Point2i pixel, const PixelDifferences* known,
                                     FitNeighbours* scratch) const;
   // Returns the difference for the checking group of a pixel. It is 0 where nothing is shared.
   Spectrum Bias(Point2i pixel, FitNeighbours* scratch) const;
 
  private:
-  bool HasRecords(Point2i pixel, int group) const;
   std::optional<Spectrum> Difference(Point2i pixel, int group, FitNeighbours* scratch) const;
 
   const GatherFragments& gathers_;
   const FragmentRows& rows_;
-  const SharingWindows& windows_;
+  const SharingChoice& choice_;
   double samples_;
 };
 

@@ -7,8 +7,8 @@
 namespace exphoton {
 
 // The squared bias of a group of passes falls as samples^-kSharingSlope in the mean. Single scenes
-// have exponents of .2 to .6 (docs/decisions/0087-expected-bias-of-sharing.md).
-constexpr double kSharingSlope = .4;
+// have exponents of .3 to .8 (docs/decisions/0107-shares-of-fits.md).
+constexpr double kSharingSlope = .6;
 
 // The mean over the picture of squared bias / (L^2 + 0.01), the unit of relMSE. The estimate may be
 // negative by chance. From neighbours it is the larger one of two, which is .56 standard errors too

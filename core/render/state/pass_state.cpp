@@ -64,7 +64,8 @@ PictureSoFar PassState::Picture(ThreadPool* threads) const {
   if (parts_.splats) splats.emplace(*parts_.splats, &picture.film, picture.aovs.get());
   SplatBuffer* const buffer = splats ? &*splats : nullptr;
   if (parts_.shared)
-    SharedGathers(parts_.shared->Gathers(), threads, parts_.pass.diskArea)
+    SharedGathers(parts_.shared->Gathers(), {parts_.shared->Current().window, parts_.pass.diskArea},
+                  threads)
         .AddLight({&picture.film, picture.aovs.get(), buffer, parts_.shared->Current().window,
                    double(parts_.pass.sampleCount)});
   if (buffer) buffer->Finish();

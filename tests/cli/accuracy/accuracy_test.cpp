@@ -289,7 +289,7 @@ TEST_F(AccuracyTest, KeepLeavesTheSceneAsItIs) {
   EXPECT_EQ(Render("30%", {}, "whitted.pbrt").status, 0);
 }
 
-// Sharing blurs a dark strip in this room. At 5 % its bias and the interval of it are most of the
+// Sharing blurs a dark strip in this room. At 4 % its bias and the interval of it are most of the
 // error, so the picture needs fewer samples without sharing.
 TEST_F(AccuracyTest, StopsSharingWhereItsBiasIsDear) {
   const std::string scene = EXPHOTON_SOURCE_DIR "/scenes/skylight-room/exphotonmap.pbrt";
@@ -299,7 +299,7 @@ TEST_F(AccuracyTest, StopsSharingWhereItsBiasIsDear) {
         "--integrator", "exphotonmap", "--set",         "SurfaceIntegrator.finalgathersamples=16",
         "--stats-json", "room.json",   "--reproducible"};
     options.insert(options.end(), more.begin(), more.end());
-    const ProgramResult result = Render("5%", options, scene);
+    const ProgramResult result = Render("4%", options, scene);
     EXPECT_EQ(result.status, 0) << result.err;
     return result.err;
   };

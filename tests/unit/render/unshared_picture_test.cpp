@@ -46,7 +46,7 @@ void GatherPass(std::uint64_t seed, BothPictures* pass, SharingChange* change,
     }
   }
   ThreadPool threads(1);
-  SharedGathers(gathers, &threads)
+  SharedGathers(gathers, {kOwnBounds}, &threads)
       .AddLight(
           {&pass->shared, &pass->aovs, nullptr, kOwnBounds, kOwnSamples, corrections, change});
 }

@@ -21,8 +21,8 @@ namespace {
 constexpr double kCorrectedShare = 1. / 16;
 // A pilot of a small picture would take as long as a part of the picture.
 constexpr double kPixelShare = .25, kFewestPixels = 750;
-constexpr double kMostShrinking = 16;          // of pixels, for which noise and bias are known
-constexpr double kSharingSlopeOfPixels = .35;  // of the squared bias of sharing over pixels
+constexpr double kMostShrinking = 16;         // of pixels, for which noise and bias are known
+constexpr double kSharingSlopeOfPixels = .4;  // of the squared bias of sharing over pixels
 
 // Returns the CPU time of the phases, which depends on a clock.
 CountedCost SecondsOf(const Statistics& statistics) {

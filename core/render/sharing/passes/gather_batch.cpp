@@ -53,13 +53,13 @@ void GatherBatch::FitLight(ThreadPool* threads) {
   std::optional<SplatBuffer> splats;
   if (splatWeights_) splats.emplace(*splatWeights_, &light_, lightAovs_.get());
   SplatBuffer* const buffer = splats ? &*splats : nullptr;
-  shared_.emplace(gathers_, threads);
+  shared_.emplace(gathers_, SharingRequest{window_}, threads);
   totals_ = shared_->AddLight({&light_, lightAovs_.get(), buffer, window_, double(samples_)});
   if (buffer) buffer->Finish();
 }
 
 std::optional<SharingBias> GatherBatch::Bias(ThreadPool* threads) {
-  if (!shared_) shared_.emplace(gathers_, threads);
+  if (!shared_) shared_.emplace(gathers_, SharingRequest{window_}, threads);
   Film picture = own_;
   picture.Add(light_);
   return EstimateSharingBias(shared_->Check(window_, double(samples_)), picture);

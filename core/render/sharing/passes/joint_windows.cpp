@@ -64,11 +64,12 @@ void JointWindows::JoinNewPasses(ThreadPool* threads) {
 
 double JointWindows::Fit(ThreadPool* threads, const Use& use) {
   JoinNewPasses(threads);
-  const SharingWindows windows(all_, FragmentRows(all_), threads);
+  const FragmentRows rows(all_);
+  const SharingChoice choice(all_, rows, {picture_.Crop()}, threads);
   SharingTotals totals;
   for (Pass& pass : passes_) {
     SharingChange change(picture_, aovs_);
-    const SharedGathers shared(pass.gathers, windows, threads);
+    const SharedGathers shared(pass.gathers, choice, picture_.Crop(), threads);
     totals.Add(shared.AddLight(
         {nullptr, nullptr, nullptr, picture_.Crop(), double(pass.samples), nullptr, &change}));
     SharingChange difference(picture_, aovs_);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// JointWindows shares the gathers of several passes with windows that all of them choose together.
-// Few samples choose windows badly, and the mean of several passes has less noise than one pass, so
-// that smaller windows are better for it. Each pass keeps a fit of its own, because the differences
-// between passes show the noise of the picture. docs/decisions/0099-joint-windows.md has the
-// derivation and the measurements.
+// JointWindows shares the gathers of several passes with windows and shares of fits that all of
+// them choose together. Few samples choose windows badly, and the mean of several passes has less
+// noise than one pass, so that smaller windows are better for it. Each pass keeps a fit of its own,
+// because the differences between passes show the noise of the picture.
+// docs/decisions/0099-joint-windows.md has the derivation and the measurements.
 #pragma once
 
 #include <cstdint>

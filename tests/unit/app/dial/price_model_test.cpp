@@ -160,7 +160,7 @@ TEST(PriceModel, DoesNotWaitForALargeBiasOfSharing) {
 TEST(PriceModel, IntervalsContainTheErrorOfTheBiasOfSharing) {
   PriceModel model;
   model.camera = 1, model.sample = .01;
-  model.sharing = {100, .001};
+  model.sharing = {100, .002};
   const Price exact = PriceOf(model, {.05}).value();
   EXPECT_LT(exact.least, .8 * exact.seconds / 1.35);
   model.sharing.error = .0005;

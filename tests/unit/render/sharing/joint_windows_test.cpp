@@ -60,7 +60,7 @@ struct WavePicture {
     if (isJoint)
       AddOwnLight(gathers, target, &threads);
     else
-      SharedGathers(gathers, &threads).AddLight(target);
+      SharedGathers(gathers, {kWave}, &threads).AddLight(target);
     sum.Add(pass, kWaveSamples, passes);
     corrections.EndPass(passes, kWaveSamples);
     if (isJoint) {

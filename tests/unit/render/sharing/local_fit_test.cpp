@@ -9,7 +9,7 @@
 
 #include "core/base/error.h"
 #include "core/math/sampling/random.h"
-#include "core/render/sharing/sharing_windows.h"
+#include "core/render/sharing/windows/sharing_windows.h"
 
 namespace exphoton {
 namespace {
@@ -280,6 +280,25 @@ TEST(LocalFit, HasTheMomentsOfFlatAndOfTiltedFragments) {
       for (std::size_t j = i; j < kFitFeatures; ++j)
         EXPECT_NEAR(moments.matrix[k++], matrix[i][j], 1e-4 * moments.matrix[0]) << i << j;
     }
+  }
+}
+
+// A change of one record at the target changes the fit there by its influence.
+TEST(LocalFit, KnowsTheInfluenceOfARecord) {
+  for (const Real radius : {Real(2), Real(6)}) {
+    GatherFragments gathers = PlaneGathers(32, Linear);
+    const auto fit = [&] {
+      const FragmentRows rows(gathers);
+      FitNeighbours neighbours;
+      const GatherFragment& middle = gathers.At({16, 16}).fragments[0];
+      LocalFit::Collect(rows, {FitTarget(middle), {16, 16}, radius}, &neighbours);
+      return LocalFit(neighbours, radius, FragmentRows::All);
+    };
+    const LocalFit before = fit();
+    gathers.At({16, 16}).fragments[0].lights[0] += Spectrum(8);
+    const double change = double(fit().AtTarget()[1] - before.AtTarget()[1]);
+    EXPECT_NEAR(change, 8 * before.InfluenceOfRecord(), 1e-4) << radius;
+    EXPECT_GT(before.InfluenceOfRecord(), .001) << radius;
   }
 }
 

@@ -51,7 +51,7 @@ Shared ShareLight(const ValueAt& light, double noise, std::uint64_t seed, int pa
   }
   ThreadPool threads(1);
   AovFilm aovs(bounds, {Aov::SharingBias});
-  const SharedGathers shared(gathers, &threads);
+  const SharedGathers shared(gathers, {bounds}, &threads);
   shared.AddLight({&film, &aovs, nullptr, bounds, kSamples});
   const std::vector<CheckedPixel> checked = shared.Check(bounds, kSamples);
   Shared result{EstimateSharingBias(checked, film).value(), {}, {}};

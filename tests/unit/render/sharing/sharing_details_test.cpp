@@ -33,7 +33,7 @@ Film ShareWall(const std::function<double(int x)>& lightAt,
       gathers.At({x, y}).Finish();
     }
   ThreadPool threads(1);
-  SharedGathers(gathers, &threads)
+  SharedGathers(gathers, {kWall}, &threads)
       .AddLight({&film, nullptr, nullptr, kWall, kWallSamples, nullptr, nullptr});
   return film;
 }

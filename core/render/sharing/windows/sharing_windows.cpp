@@ -1,28 +1,17 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // SharingWindows: judges the windows at each grid pixel, and then chooses among them by the errors
 // of a neighbourhood.
-#include "core/render/sharing/sharing_windows.h"
+#include "core/render/sharing/windows/sharing_windows.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/render/sharing/windows/squared_difference.h"
 
 namespace exphoton {
 namespace {
 
 constexpr Real kChoiceRadius = 12, kBlendRadius = 6;  // pixels
-
-int FloorDivide(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
-int CeilDivide(int a, int b) { return -FloorDivide(-a, b); }
-
-// In double precision, because the square of faint or bright light leaves the range of float.
-double SquaredDifference(const Spectrum& a, const Spectrum& b) {
-  double sum = 0;
-  for (int c = 0; c < Spectrum::kChannels; ++c) {
-    const double d = double(a[c]) - double(b[c]);
-    sum += d * d;
-  }
-  return sum;
-}
 
 // Statistics of the differences between two windows' errors.
 struct Comparison {
@@ -36,46 +25,18 @@ struct Comparison {
   bool IsBetter(double deviations) const { return sum + deviations * std::sqrt(squares) < 0; }
 };
 
-// Returns whether the light of a group differs from a fit by more than its noise, and not against
-// this direction.
-bool StandsOut(const GatherFragment& fragment, int group, const Spectrum& fit,
-               const Spectrum& direction, Real noise) {
-  constexpr double kDeviations = 3;
-  const Spectrum own = fragment.Mean(group), both = (own - fit) * direction;
-  // Brighter light has more noise, so the brighter one of both counts.
-  const double variance =
-      double(noise) *
-      std::max(SquaredDifference(fit, Spectrum()), SquaredDifference(own, Spectrum())) /
-      double(fragment.count[std::size_t(group)]);
-  return noise > 0 && both[0] + both[1] + both[2] > 0 &&
-         SquaredDifference(own, fit) > kDeviations * kDeviations * variance;
-}
-
 }  // namespace
 
 SharingWindows::SharingWindows(const GatherFragments& gathers, const FragmentRows& rows,
-                               ThreadPool* threads) {
-  const PixelBounds& bounds = gathers.Bounds();
-  x0_ = CeilDivide(bounds.x0, kStride);
-  y0_ = CeilDivide(bounds.y0, kStride);
-  columns_ = std::max(CeilDivide(bounds.x1, kStride) - x0_, 0);
-  rows_ = std::max(CeilDivide(bounds.y1, kStride) - y0_, 0);
-  cells_.resize(std::size_t(columns_) * std::size_t(rows_));
-  std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));
-  threads->For(rows_, [&](std::int64_t row, int worker) {
-    for (int column = 0; column < columns_; ++column) {
-      const Point2i pixel{(x0_ + column) * kStride, (y0_ + int(row)) * kStride};
-      Cell& cell = cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)];
-      for (const GatherFragment& fragment : gathers.At(pixel).fragments)
-        cell.push_back(Judge(rows, pixel, fragment, &scratch[std::size_t(worker)]));
-    }
-  });
-  std::vector<std::vector<Nearby>> nearby(scratch.size());
-  threads->For(rows_, [&](std::int64_t row, int worker) {
-    for (int column = 0; column < columns_; ++column)
-      for (Place& place : cells_[std::size_t(row) * std::size_t(columns_) + std::size_t(column)])
-        Choose(&place, &nearby[std::size_t(worker)]);
-  });
+                               ThreadPool* threads)
+    : grid_(gathers, threads,
+            [&rows, scratch = std::vector<FitNeighbours>(std::size_t(threads->Count()))](
+                Point2i pixel, const GatherFragment& fragment, int worker) mutable {
+              return Judge(rows, pixel, fragment, &scratch[std::size_t(worker)]);
+            }) {
+  std::vector<std::vector<Nearby>> nearby(std::size_t(threads->Count()));
+  grid_.ForAll(threads,
+               [&](Place* place, int worker) { Choose(place, &nearby[std::size_t(worker)]); });
 }
 
 SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pixel,
@@ -108,31 +69,11 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
   return place;
 }
 
-template <class Use>
-void SharingWindows::ForNearby(const Spot& point, Real radius, const Use& use) const {
-  const int reach = int(radius);
-  const int firstX = std::max(CeilDivide(point.pixel.x - reach, kStride) - x0_, 0),
-            firstY = std::max(CeilDivide(point.pixel.y - reach, kStride) - y0_, 0),
-            lastX = std::min(FloorDivide(point.pixel.x + reach, kStride) - x0_, columns_ - 1),
-            lastY = std::min(FloorDivide(point.pixel.y + reach, kStride) - y0_, rows_ - 1);
-  for (int y = firstY; y <= lastY; ++y) {
-    for (int x = firstX; x <= lastX; ++x) {
-      for (const Place& place : cells_[std::size_t(y) * std::size_t(columns_) + std::size_t(x)]) {
-        const Point2 d = place.film - point.film;
-        const Real weight = 1 - (d.x * d.x + d.y * d.y) / (radius * radius);
-        if (weight > 0 && place.isJudged && place.depth == point.depth &&
-            LieOnOneSurface(point.p, point.ng, place.p, place.ng))
-          use(place, weight);
-      }
-    }
-  }
-}
-
 void SharingWindows::Choose(Place* place, std::vector<Nearby>* scratch) const {
   std::vector<Nearby>& nearby = *scratch;
   nearby.clear();
-  ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
-    nearby.push_back({&other, weight});
+  grid_.ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
+    if (other.isJudged) nearby.push_back({&other, weight});
   });
   // Start with the smallest window that has a fit. Another window replaces the best one only if its
   // errors are clearly smaller. Fits are compared with a fit, which has much less noise than a
@@ -179,7 +120,8 @@ Real SharingWindows::NoiseAround(const std::vector<Nearby>& nearby, std::size_t 
 
 SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {
   Real radii = 0, noise = 0, total = 0;
-  ForNearby(Spot(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
+  grid_.ForNearby(PlaceSpot(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
+    if (!place.isJudged) return;
     radii += weight * place.radius;
     noise += weight * place.noise;
     total += weight;
@@ -187,38 +129,6 @@ SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& f
   const Real radius = (total > 0 ? radii / total : kRadii[1]) * scale_;
   return {std::max(radius, kRadii[1]), std::min(radius / kRadii[1], Real(1)),
           total > 0 ? noise / total : 0};
-}
-
-WindowFit::WindowFit(const FragmentRows& rows, const SharingWindows& windows, const Place& place,
-                     FitNeighbours* scratch)
-    : fragment_(place.fragment),
-      window_(windows.At(place.pixel, place.fragment)),
-      target_(place.fragment),
-      neighbours_(*scratch) {
-  if (window_.share > 0) LocalFit::Collect(rows, {target_, place.pixel, window_.radius}, scratch);
-}
-
-std::optional<LocalFit> WindowFit::To(FragmentRows::Column set) const {
-  if (!(window_.share > 0)) return std::nullopt;
-  const LocalFit fit(neighbours_, window_.radius, set);
-  if (IsDetail(fit.AtTarget())) return std::nullopt;
-  return fit;
-}
-
-bool WindowFit::IsDetail(const Spectrum& fit) const {
-  const Real noise = window_.noise;
-  if (!fragment_.HasGroup(kChoosingGroups[0]) || !fragment_.HasGroup(kChoosingGroups[1]))
-    return false;
-  const Spectrum direction = fragment_.Mean(kChoosingGroups[0]) - fit;
-  for (int group = 0; group < kGatherGroups; ++group)
-    if (fragment_.HasGroup(group) && !StandsOut(fragment_, group, fit, direction, noise))
-      return false;
-  for (std::size_t set = 0; set < 2; ++set) {
-    const LocalFit other(neighbours_, window_.radius, FragmentRows::OfGroup(kChoosingGroups[set]));
-    if (!StandsOut(fragment_, kChoosingGroups[1 - set], other.AtTarget(), direction, noise))
-      return false;
-  }
-  return true;
 }
 
 }  // namespace exphoton

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// SharingShares: sums of squares around each place.
+#include "core/render/sharing/windows/sharing_shares.h"
+
+#include <algorithm>
+
+#include "core/render/sharing/windows/squared_difference.h"
+
+namespace exphoton {
+namespace {
+
+constexpr Real kSumRadius = 6, kShareRadius = 6;  // pixels
+
+// Estimates of b^2 and V of one fragment, relative to the square of its fit.
+struct Evidence {
+  double squaredBias = 0, variance = 0;
+};
+
+// The groups of a fragment have independent noise, so their scatter shows V. The squared difference
+// d^2 of own light and fit has the expected value b^2 + V, but for the part that the fragment has
+// in its fit: with the leverage h, the own light and the fit have the covariance h V, and the fit
+// has the variance 2/3 h V for the weights of LocalFit.
+Evidence EvidenceOf(const GatherFragment& fragment, const LocalFit& fit) {
+  constexpr double kOfLeverage = 2 - 2. / 3;
+  const Spectrum fitted = fit.AtTarget();
+  const double scale = SquaredDifference(fitted, Spectrum());
+  const Real count = fragment.Count();
+  const Spectrum own = fragment.Light() / count;
+  int groups = 0;
+  double scatter = 0;
+  for (int group = 0; group < kGatherGroups; ++group) {
+    if (!fragment.HasGroup(group)) continue;
+    ++groups;
+    scatter +=
+        double(fragment.count[std::size_t(group)]) * SquaredDifference(fragment.Mean(group), own);
+  }
+  if (!(scale > 0) || groups < 2) return {};
+  const double variance = scatter / (groups - 1) / double(count) / scale;
+  const double leverage = std::min(fit.InfluenceOfRecord() * double(count), 1 / kOfLeverage);
+  return {SquaredDifference(own, fitted) / scale - (1 - kOfLeverage * leverage) * variance,
+          variance};
+}
+
+// Adds up evidence with weights. The sum of b^2 loses its own variance, relative to itself, so that
+// noise alone leaves nearly all light to the fit.
+class EvidenceSum {
+ public:
+  void Add(double weight, const Evidence& evidence) {
+    const double squaredBias = weight * evidence.squaredBias;
+    squaredBias_ += squaredBias;
+    squares_ += squaredBias * squaredBias;
+    variance_ += weight * evidence.variance;
+  }
+  Real Share() const {
+    if (!(squaredBias_ > 0) || !(variance_ > 0)) return 1;
+    const double likely = std::max(squaredBias_ - 2 * squares_ / squaredBias_, 0.);
+    return Real(variance_ / (variance_ + likely));
+  }
+
+ private:
+  double squaredBias_ = 0, squares_ = 0, variance_ = 0;
+};
+
+std::vector<Evidence> EvidenceOfAll(const FragmentFits::Source& source, const FragmentFits& fits,
+                                    ThreadPool* threads) {
+  const PixelBounds& bounds = source.gathers.Bounds();
+  std::vector<Evidence> all(source.rows.Count());
+  threads->For(bounds.Height(), [&](std::int64_t row, int) {
+    for (int x = bounds.x0; x < bounds.x1; ++x) {
+      const Point2i pixel{x, bounds.y0 + int(row)};
+      const auto& fragments = source.gathers.At(pixel).fragments;
+      const FragmentFit* fit = fits.At(pixel);
+      for (std::size_t i = 0; i < fragments.size(); ++i, ++fit)
+        if (fit->fit) all[source.rows.First(pixel) + i] = EvidenceOf(fragments[i], *fit->fit);
+    }
+  });
+  return all;
+}
+
+}  // namespace
+
+SharingShares::SharingShares(const FragmentFits::Source& source, const FragmentFits& fits,
+                             ThreadPool* threads)
+    : grid_(source.gathers, threads, [](Point2i pixel, const GatherFragment& fragment, int) {
+        return Place(pixel, fragment);
+      }) {
+  const std::vector<Evidence> all = EvidenceOfAll(source, fits, threads);
+  const PixelBounds& bounds = source.gathers.Bounds();
+  constexpr int kReachOfSum = int(kSumRadius);
+  grid_.ForAll(threads, [&](Place* place, int) {
+    EvidenceSum sum;
+    const int x0 = std::max(place->pixel.x - kReachOfSum, bounds.x0);
+    const int x1 = std::min(place->pixel.x + kReachOfSum + 1, bounds.x1);
+    const int y0 = std::max(place->pixel.y - kReachOfSum, bounds.y0);
+    const int y1 = std::min(place->pixel.y + kReachOfSum + 1, bounds.y1);
+    for (int y = y0; y < y1; ++y) {
+      for (int x = x0; x < x1; ++x) {
+        const auto& fragments = source.gathers.At({x, y}).fragments;
+        for (std::size_t i = 0; i < fragments.size(); ++i) {
+          const Real weight = place->WeightOf(fragments[i].film, kSumRadius);
+          if (weight > 0 && place->IsOnSurfaceOf(PlaceSpot({x, y}, fragments[i])))
+            sum.Add(double(weight), all[source.rows.First({x, y}) + i]);
+        }
+      }
+    }
+    place->share = sum.Share();
+  });
+}
+
+Real SharingShares::At(Point2i pixel, const GatherFragment& fragment) const {
+  Real shares = 0, total = 0;
+  grid_.ForNearby(PlaceSpot(pixel, fragment), kShareRadius, [&](const Place& place, Real weight) {
+    shares += weight * place.share;
+    total += weight;
+  });
+  return total > 0 ? shares / total : 1;
+}
+
+}  // namespace exphoton
