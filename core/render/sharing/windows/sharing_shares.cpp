@@ -41,7 +41,7 @@ Evidence EvidenceOf(const GatherFragment& fragment, const LocalFit& fit) {
           variance};
 }
 
-// Adds up evidence with weights. The sum of b^2 loses its own variance, relative to itself, so that
+// Adds up evidence with weights. The sum of b^2 loses twice its variance over itself, so that
 // noise alone leaves nearly all light to the fit.
 class EvidenceSum {
  public:
