@@ -6,6 +6,7 @@
 #include "core/base/error.h"
 #include "core/render/certificate/corrections.h"
 #include "core/render/passes/render_halves.h"
+#include "core/render/sharing/shared_gathers.h"
 #include "core/render/state/checkpoints.h"
 #include "tests/support/process.h"
 #include "tests/support/test_scene.h"
@@ -274,6 +275,8 @@ TEST_P(ResumeTest, APauseChangesNothing) {
 TEST_P(ResumeTest, ContradictoryStatesGiveErrorsOrPictures) {
   const bool hasBands = Param().rows > 14;
   // The second pass of an accuracy, so that the state has a complete one.
+  // Bands have 16 rows or more, and the first one also gathers its margin.
+  if (hasBands) ASSERT_LT(20 * 4 * (16 + SharingMargin()), 5200);
   const int samples = hasBands ? 5200 : Param().mode == Mode::Accuracy ? 2000 : 700;
   CheckpointAt stop(samples, true, Path());
   ASSERT_FALSE(Render(&stop, nullptr, 1).result.render.isComplete);

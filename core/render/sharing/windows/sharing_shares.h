@@ -4,8 +4,8 @@
 // b, the bias. The mean square of the error is least where the fit has the share V / (V + b^2), if
 // the noise of the fit is small. This is the rule of James and Stein 1961, "Estimation with
 // Quadratic Loss", which Gu et al. 2022, "Neural James-Stein Combiner for Unbiased and Biased
-// Renderings", apply to pictures. V and b^2 are estimated from the groups of samples
-// in a neighbourhood of each place of a PlaceGrid.
+// Renderings", apply to pictures. V and b^2 are estimated from the groups of samples in a
+// neighbourhood of each place of a PlaceGrid.
 #pragma once
 
 #include "core/base/parallel.h"

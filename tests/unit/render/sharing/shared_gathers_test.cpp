@@ -40,6 +40,17 @@ std::string Room(bool isShared, const std::string& more = "", int samples = 2) {
 )";
 }
 
+// The same room, large enough for crops and bands that leave gathers beyond their margin out.
+constexpr int kLargeWidth = 100, kLargeHeight = 120;
+std::string LargeRoom() {
+  std::string scene = Room(true);
+  const std::string small = "[40] \"integer yresolution\" [32]";
+  const std::string large = "[" + std::to_string(kLargeWidth) + "] \"integer yresolution\" [" +
+                            std::to_string(kLargeHeight) + "]";
+  scene.replace(scene.find(small), small.size(), large);
+  return scene;
+}
+
 // Returns the mean difference of the channels from the fifth on, which are AOVs.
 double Difference(const Image& a, const Image& b) {
   double sum = 0;
@@ -70,26 +81,29 @@ TEST(SharedGathers, HaveLessNoiseAndTheSameMean) {
 }
 
 TEST(SharedGathers, DependOnNoThreadTileOrCrop) {
+  const std::string scene = LargeRoom();
   TestRenderOptions options;
   options.seed = 3;
-  const TestRender whole = RenderSceneText(Room(true), options);
+  const TestRender whole = RenderSceneText(scene, options);
   options.threads = 3;
   options.tileSize = 5;
   options.tileOrder = TileOrder::Reversed;
-  EXPECT_EQ(RenderSceneText(Room(true), options).image.pixels, whole.image.pixels);
-  options.load.pixelBounds = PixelBounds{17, 9, 23, 14};
-  const Image part = RenderSceneText(Room(true), options).image;
-  ASSERT_EQ(part.data, (PixelBounds{17, 9, 23, 14}));
-  for (int y = 9; y < 14; ++y)
-    for (int x = 17; x < 23; ++x)
+  EXPECT_EQ(RenderSceneText(scene, options).image.pixels, whole.image.pixels);
+  constexpr PixelBounds kCrop{47, 57, 53, 62};
+  ASSERT_GT(kCrop.y0 - SharingMargin(), 0);
+  options.load.pixelBounds = kCrop;
+  const Image part = RenderSceneText(scene, options).image;
+  ASSERT_EQ(part.data, kCrop);
+  for (int y = kCrop.y0; y < kCrop.y1; ++y)
+    for (int x = kCrop.x0; x < kCrop.x1; ++x)
       for (std::size_t c = 0; c < 4; ++c)
-        EXPECT_EQ(part.pixels[std::size_t((y - 9) * 6 + x - 17) * 4 + c],
-                  whole.image.pixels[std::size_t(y * 40 + x) * 4 + c]);
+        EXPECT_EQ(part.pixels[std::size_t((y - kCrop.y0) * kCrop.Width() + x - kCrop.x0) * 4 + c],
+                  whole.image.pixels[std::size_t(y * kLargeWidth + x) * 4 + c]);
 }
 
 TEST(SharedGathers, DoNotDependOnBands) {
   for (const char* filter : {"box", "mitchell"}) {
-    std::string scene = Room(true);
+    std::string scene = LargeRoom();
     scene.replace(scene.find("\"box\""), 5, '"' + std::string(filter) + '"');
     TestRenderOptions options;
     options.seed = 6;
