@@ -4,11 +4,13 @@
 
 namespace exphoton {
 
-FragmentRows::FragmentRows(const GatherFragments& gathers) : bounds_(gathers.Bounds()) {
+FragmentRows::FragmentRows(const GatherFragments& gathers, int stride) : stride_(stride) {
+  const PixelBounds& bounds = gathers.Bounds();
+  grid_ = {CeilDivide(bounds.x0), CeilDivide(bounds.y0), CeilDivide(bounds.x1),
+           CeilDivide(bounds.y1)};
   first_.push_back(0);
-  for (int y = bounds_.y0; y < bounds_.y1; ++y)
-    for (int x = bounds_.x0; x < bounds_.x1; ++x)
-      first_.push_back(first_.back() + gathers.At({x, y}).fragments.size());
+  ForPixels(
+      [&](Point2i pixel) { first_.push_back(first_.back() + gathers.At(pixel).fragments.size()); });
   for (auto& column : columns_) column.resize(first_.back() + kPadding);
   std::array<Real*, kColumns> columns;
   for (std::size_t c = 0; c < kColumns; ++c) columns[c] = columns_[c].data();
@@ -17,19 +19,17 @@ FragmentRows::FragmentRows(const GatherFragments& gathers) : bounds_(gathers.Bou
     const Real values[] = {count, light.r, light.g, light.b};
     for (std::size_t c = 0; c < 4; ++c) columns[first + c][at] = values[c];
   };
-  for (int y = bounds_.y0; y < bounds_.y1; ++y) {
-    for (int x = bounds_.x0; x < bounds_.x1; ++x) {
-      for (const GatherFragment& f : gathers.At({x, y}).fragments) {
-        const Real values[Group0] = {f.film.x, f.film.y, f.p.x, f.p.y, f.p.z, f.ng.x,
-                                     f.ng.y,   f.ng.z,   f.n.x, f.n.y, f.n.z, Real(f.depth)};
-        for (std::size_t c = 0; c < Group0; ++c) columns[c][at] = values[c];
-        for (int group = 0; group < kGatherGroups; ++group)
-          setRecords(OfGroup(group), f.count[std::size_t(group)], f.lights[std::size_t(group)]);
-        setRecords(All, f.Count(), f.Light());
-        ++at;
-      }
+  ForPixels([&](Point2i pixel) {
+    for (const GatherFragment& f : gathers.At(pixel).fragments) {
+      const Real values[Group0] = {f.film.x, f.film.y, f.p.x, f.p.y, f.p.z, f.ng.x,
+                                   f.ng.y,   f.ng.z,   f.n.x, f.n.y, f.n.z, Real(f.depth)};
+      for (std::size_t c = 0; c < Group0; ++c) columns[c][at] = values[c];
+      for (int group = 0; group < kGatherGroups; ++group)
+        setRecords(OfGroup(group), f.count[std::size_t(group)], f.lights[std::size_t(group)]);
+      setRecords(All, f.Count(), f.Light());
+      ++at;
     }
-  }
+  });
 }
 
 }  // namespace exphoton

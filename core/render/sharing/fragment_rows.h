@@ -37,30 +37,47 @@ class FragmentRows {
   // Returns the first column of a group.
   static Column OfGroup(int group) { return Column(Group0 + 4 * group); }
 
-  explicit FragmentRows(const GatherFragments& gathers);
+  // Takes the pixels of a grid: every `stride`-th one along both axes, counted from pixel 0,0, so
+  // that the grid does not depend on a crop window.
+  explicit FragmentRows(const GatherFragments& gathers, int stride = 1);
 
   const Real* At(Column column) const { return columns_[std::size_t(column)].data(); }
-  // Returns the range of the fragments of pixels x0 to x1 - 1 of row y, clipped to the picture.
+  // Calls use(range) for each row of the pixels within `reach` pixels of this one along both axes.
   struct Range {
-    std::size_t begin = 0, end = 0;
+    std::size_t begin = 0, end = 0;  // fragments
   };
-  Range Fragments(int x0, int x1, int y) const {
-    if (y < bounds_.y0 || y >= bounds_.y1) return {};
-    x0 = std::clamp(x0, bounds_.x0, bounds_.x1);
-    x1 = std::clamp(x1, x0, bounds_.x1);
-    const std::size_t row = IndexOf({bounds_.x0, y});
-    return {first_[row + std::size_t(x0 - bounds_.x0)], first_[row + std::size_t(x1 - bounds_.x0)]};
+  template <class Use>
+  void ForRowsAround(Point2i pixel, int reach, const Use& use) const {
+    const int x0 = std::clamp(CeilDivide(pixel.x - reach), grid_.x0, grid_.x1),
+              x1 = std::clamp(FloorDivide(pixel.x + reach) + 1, x0, grid_.x1),
+              y0 = std::max(CeilDivide(pixel.y - reach), grid_.y0),
+              y1 = std::min(FloorDivide(pixel.y + reach) + 1, grid_.y1);
+    if (y0 >= y1) return;
+    const std::size_t* first = &first_[IndexOf({x0, y0})];
+    for (int y = y0; y < y1; ++y, first += grid_.Width()) use(Range{first[0], first[x1 - x0]});
   }
   std::size_t Count() const { return first_.back(); }  // of all fragments
-  std::size_t First(Point2i pixel) const { return first_[IndexOf(pixel)]; }
+  // Returns the index of the first fragment of a pixel of the grid.
+  std::size_t First(Point2i pixel) const {
+    return first_[IndexOf({FloorDivide(pixel.x), FloorDivide(pixel.y)})];
+  }
+  // Calls use(pixel) for all pixels of the grid, in the order of their fragments.
+  template <class Use>
+  void ForPixels(const Use& use) const {
+    for (int y = grid_.y0; y < grid_.y1; ++y)
+      for (int x = grid_.x0; x < grid_.x1; ++x) use(Point2i{x * stride_, y * stride_});
+  }
 
  private:
-  std::size_t IndexOf(Point2i pixel) const {
-    return std::size_t(pixel.y - bounds_.y0) * std::size_t(bounds_.Width()) +
-           std::size_t(pixel.x - bounds_.x0);
+  int FloorDivide(int a) const { return a >= 0 ? a / stride_ : -((stride_ - 1 - a) / stride_); }
+  int CeilDivide(int a) const { return -FloorDivide(-a); }
+  std::size_t IndexOf(Point2i inGrid) const {
+    return std::size_t(inGrid.y - grid_.y0) * std::size_t(grid_.Width()) +
+           std::size_t(inGrid.x - grid_.x0);
   }
-  PixelBounds bounds_;
-  std::vector<std::size_t> first_;  // by pixel; one more at the end
+  int stride_;
+  PixelBounds grid_;                // in strides
+  std::vector<std::size_t> first_;  // by pixel of the grid; one more at the end
   std::array<std::vector<Real>, kColumns> columns_;
 };
 

@@ -41,16 +41,16 @@ void SetNormalMatrix(const FitMoments& moments, double filmVariance, Matrix* mat
 }
 
 // Turns the first rows and columns of a positive definite matrix into their Cholesky factor, in the
-// lower triangle.
+// lower triangle. The diagonal has the reciprocals, because divisions are slow.
 template <std::size_t kSize>
 void Factor(Matrix* matrix) {
   Matrix& m = *matrix;
   ForConstants<kSize>([&](auto j) {
     for (std::size_t k = 0; k < j; ++k) m[j][j] -= m[j][k] * m[j][k];
-    m[j][j] = std::sqrt(std::max(m[j][j], 1e-30));
+    m[j][j] = 1 / std::sqrt(std::max(m[j][j], 1e-30));
     for (std::size_t i = j + 1; i < kSize; ++i) {
       for (std::size_t k = 0; k < j; ++k) m[i][j] -= m[i][k] * m[j][k];
-      m[i][j] /= m[j][j];
+      m[i][j] *= m[j][j];
     }
   });
 }
@@ -70,12 +70,12 @@ void Solve(const Matrix& factor, RightSides* sides) {
   RightSides& right = *sides;
   ForConstants<kSize>([&](auto i) {
     for (std::size_t k = 0; k < i; ++k) SubtractMultiple(factor[i][k], right[k], &right[i]);
-    for (double& value : right[i]) value /= factor[i][i];
+    for (double& value : right[i]) value *= factor[i][i];
   });
   ForConstants<kSize>([&](auto fromLast) {
     constexpr std::size_t i = kSize - 1 - fromLast;
     for (std::size_t k = i + 1; k < kSize; ++k) SubtractMultiple(factor[k][i], right[k], &right[i]);
-    for (double& value : right[i]) value /= factor[i][i];
+    for (double& value : right[i]) value *= factor[i][i];
   });
 }
 
@@ -119,21 +119,32 @@ void FitNeighbours::Reserve(std::size_t count) {
   tilted.resize(2 * count);
 }
 
-void LocalFit::Collect(const FragmentRows& rows, const Place& place, FitNeighbours* out) {
+namespace {
+
+// Lists the ranges of fragments that hold the neighbours.
+void Begin(const FragmentRows& rows, const LocalFit::Place& place, FitNeighbours* out) {
   const int reach = int(std::ceil(place.radius));
-  const Point2i pixel = place.pixel;
   out->rows = &rows;
   out->radius = place.radius;
   out->ranges.clear();
-  std::size_t runs = 0;
-  for (int y = pixel.y - reach; y <= pixel.y + reach; ++y) {
-    const FragmentRows::Range range = rows.Fragments(pixel.x - reach, pixel.x + reach + 1, y);
-    if (range.begin == range.end) continue;
+  std::size_t fragments = 0;
+  rows.ForRowsAround(place.pixel, reach, [&](const FragmentRows::Range& range) {
     out->ranges.push_back(range);
-    runs += (range.end - range.begin + FitNeighbours::kRun - 1) / FitNeighbours::kRun;
-  }
-  out->Reserve(runs);
+    fragments += range.end - range.begin;
+  });
+  out->Reserve(fragments / FitNeighbours::kRun + out->ranges.size());
+}
+
+}  // namespace
+
+void LocalFit::Collect(const FragmentRows& rows, const Place& place, FitNeighbours* out) {
+  Begin(rows, place, out);
   Loops().back()->describe(place.target, out);
+}
+
+void LocalFit::CollectPlaces(const FragmentRows& rows, const Place& place, FitNeighbours* out) {
+  Begin(rows, place, out);
+  Loops().back()->locate(place.target, out);
 }
 
 LocalFit::LocalFit(const FitNeighbours& neighbours, Real radius, FragmentRows::Column set) {

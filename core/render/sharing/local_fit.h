@@ -43,6 +43,16 @@ struct FitNeighbours {
   enum Column { Distance2, U1, U2, U3, U4, kColumns };
 
   void Reserve(std::size_t runs);
+  // Calls use(fragment, weight) for the fragments that count, with their index and kernel weight.
+  template <class Use>
+  void ForWeights(const Use& use) const {
+    const Real* const distances2 = At(Distance2);
+    const Real most = radius * radius;
+    for (std::size_t run = 0; run < runs; ++run)
+      for (std::size_t i = 0; i < kRun; ++i)
+        if (const Real distance2 = distances2[run * kRun + i]; distance2 < most)
+          use(first[run] + i, 1 - distance2 / most);
+  }
   Real* At(int column) { return columns[std::size_t(column)].data(); }
   const Real* At(int column) const { return columns[std::size_t(column)].data(); }
 
@@ -66,6 +76,7 @@ struct LocalFitLoops {
   // Lists the fragments of out->ranges, of out->rows, within out->radius. There must be memory for
   // all runs.
   void (*describe)(const FitTarget& target, FitNeighbours* out);
+  void (*locate)(const FitTarget& target, FitNeighbours* out);  // fills no features
   // Adds up the records of one set within the radius, at most the one of the neighbours.
   void (*accumulate)(const FitNeighbours& from, Real radius, FragmentRows::Column set,
                      FitMoments* moments);
@@ -80,6 +91,8 @@ class LocalFit {
     Real radius;
   };
   static void Collect(const FragmentRows& rows, const Place& place, FitNeighbours* out);
+  // Collects the fragments without features, so that there are weights but no fits.
+  static void CollectPlaces(const FragmentRows& rows, const Place& place, FitNeighbours* out);
 
   // Fits one set of records, which is stated by its first column. The neighbours must reach to
   // `radius`.

@@ -19,11 +19,20 @@ namespace {
 
 using Real8 = Reals<8>;
 
-Real SumOf(const Real8& values) {
-  Real lanes[8];
-  values.StoreUnaligned(lanes);
-  return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
-         ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
+// Adds neighbouring lanes, then neighbouring pairs, and then both halves.
+HWY_INLINE Real SumOf(const Real8& values) {
+  static_assert(Real8::kLanes == 4 || Real8::kLanes == 8);
+  Real8::Register fours[Real8::kRegisters];
+  for (int i = 0; i < Real8::kRegisters; ++i) {
+    const auto pairs = hn::Add(values.part[i], hn::Shuffle2301(values.part[i]));
+    fours[i] = hn::Add(pairs, hn::Shuffle1032(pairs));
+  }
+  if constexpr (Real8::kLanes == 4) {
+    return hn::GetLane(fours[0]) + hn::GetLane(fours[1]);
+  } else {
+    const hn::Half<Real8::Tag> half;
+    return hn::GetLane(fours[0]) + hn::GetLane(hn::UpperHalf(half, fours[0]));
+  }
 }
 
 // Mask8 is one condition for each lane, in registers of the target.
@@ -122,7 +131,8 @@ struct Surface8 {
   }
 };
 
-void Describe(const FitTarget& target, FitNeighbours* out) {
+template <bool kHasFeatures>
+void DescribeWith(const FitTarget& target, FitNeighbours* out) {
   using F = FragmentRows;
   using N = FitNeighbours;
   const FragmentRows& rows = *out->rows;
@@ -144,14 +154,16 @@ void Describe(const FitTarget& target, FitNeighbours* out) {
       mask = mask & surface.Holds(rows, i);
       if (HasNone(mask)) continue;
       store(N::Distance2, runs, Select(mask, d2, far));
-      store(N::U1, runs, dx * scale);
-      store(N::U2, runs, dy * scale);
-      const Vector8 normals = Vector8::Load(rows, F::Nx, i);
-      if (!HasNone(Without(mask, surface.IsNormalOf(normals)))) {
-        const Vector8 tilt = normals - surface.n;
-        store(N::U3, tilted, Dot(tilt, Vector8::All(target.s)));
-        store(N::U4, tilted, Dot(tilt, Vector8::All(target.t)));
-        out->tilted[tilted++] = runs;
+      if constexpr (kHasFeatures) {
+        store(N::U1, runs, dx * scale);
+        store(N::U2, runs, dy * scale);
+        const Vector8 normals = Vector8::Load(rows, F::Nx, i);
+        if (!HasNone(Without(mask, surface.IsNormalOf(normals)))) {
+          const Vector8 tilt = normals - surface.n;
+          store(N::U3, tilted, Dot(tilt, Vector8::All(target.s)));
+          store(N::U4, tilted, Dot(tilt, Vector8::All(target.t)));
+          out->tilted[tilted++] = runs;
+        }
       }
       out->first[runs++] = i;
     }
@@ -159,6 +171,9 @@ void Describe(const FitTarget& target, FitNeighbours* out) {
   out->runs = runs;
   out->tiltedRuns = tilted;
 }
+
+void Describe(const FitTarget& target, FitNeighbours* out) { DescribeWith<true>(target, out); }
+void Locate(const FitTarget& target, FitNeighbours* out) { DescribeWith<false>(target, out); }
 
 // The records of one set.
 struct Records8 {
@@ -238,7 +253,7 @@ void Accumulate(const FitNeighbours& from, Real radius, FragmentRows::Column set
 }  // namespace
 
 extern const LocalFitLoops kLocalFitLoops;
-const LocalFitLoops kLocalFitLoops{Describe, Accumulate};
+const LocalFitLoops kLocalFitLoops{Describe, Locate, Accumulate};
 
 }  // namespace exphoton::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

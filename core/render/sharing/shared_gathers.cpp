@@ -17,8 +17,8 @@ namespace {
 // The fit around one fragment, blended with the samples' own light.
 class FragmentLight {
  public:
-  FragmentLight(const GatherFragment& fragment, const std::optional<LocalFit>& fit, Real share)
-      : target_(fragment), fit_(fit), share_(share) {}
+  FragmentLight(const FitTarget& target, const std::optional<LocalFit>& fit, Real share)
+      : target_(target), fit_(fit), share_(share) {}
 
   Spectrum At(const GatherSample& sample) const {
     if (!fit_) return sample.light;
@@ -35,7 +35,8 @@ class FragmentLight {
 // The lights of all fragments of one pixel after the other.
 class PixelLights {
  public:
-  explicit PixelLights(const SharingChoice& choice) : choice_(choice) {}
+  PixelLights(const SharingChoice& choice, FitNeighbours* scratch)
+      : choice_(choice), scratch_(scratch) {}
 
   // `fits` has the fits of the pixel's fragments. Adds their differences to `check` (null: none).
   void Set(Point2i pixel, const GatherFragments::Pixel& gathered, const FragmentFit* fits,
@@ -43,8 +44,9 @@ class PixelLights {
     lights_.clear();
     for (std::size_t i = 0; i < gathered.fragments.size(); ++i) {
       const SharingWindows::Window& window = fits[i].window;
-      const Real share = choice_.ShareOf(pixel, gathered.fragments[i], window);
-      lights_.emplace_back(gathered.fragments[i], fits[i].fit, share);
+      const FitTarget target(gathered.fragments[i]);
+      const Real share = choice_.ShareOf(pixel, target, window, scratch_);
+      lights_.emplace_back(target, fits[i].fit, share);
       if (check && fits[i].checked) check->Add(i, *fits[i].checked * share);
       totals_.radii += double(window.radius * window.share);
       totals_.fragments += 1;
@@ -55,6 +57,7 @@ class PixelLights {
 
  private:
   const SharingChoice& choice_;
+  FitNeighbours* scratch_;
   std::vector<FragmentLight> lights_;
   SharingTotals totals_;
 };
@@ -67,6 +70,10 @@ FragmentFits::GroupOf GroupsOf(const GatherFragments& gathers, const SharingRequ
   return [&gathers, window = request.window](Point2i pixel) {
     return SharingChecker::GroupOf(gathers, pixel, window);
   };
+}
+
+bool HasChecked(const FragmentFit* fits, std::size_t count) {
+  return std::any_of(fits, fits + count, [](const FragmentFit& fit) { return bool(fit.checked); });
 }
 
 // Reports what sharing changes. L is the shared light of a sample.
@@ -184,14 +191,16 @@ SharingTotals SharedGathers::AddLight(const SharedLightTarget& target) const {
 SharingTotals SharedGathers::AddRow(const SharedLightTarget& target, int y,
                                     PixelDifferences* differences, FitNeighbours* scratch) const {
   const SharingChecker checker = CheckerOf(target.samplesPerPixel);
-  PixelLights lights(choice_);
+  PixelLights lights(choice_, scratch);
   SplatBuffer::Pixel splat;
   for (int x = target.window.x0; x < target.window.x1; ++x) {
     const Point2i pixel{x, y};
     const GatherFragments::Pixel& gathered = gathers_.At(pixel);
+    const FragmentFit* const fits = fits_.At(pixel);
     std::optional<PixelCheck> check;
-    if (differences) check.emplace(gathered, target.samplesPerPixel);
-    lights.Set(pixel, gathered, fits_.At(pixel), check ? &*check : nullptr);
+    if (differences && HasChecked(fits, gathered.fragments.size()))
+      check.emplace(gathered, target.samplesPerPixel);
+    lights.Set(pixel, gathered, fits, check ? &*check : nullptr);
     if (check) differences->At(pixel) = check->Difference();
     AddBias(target, pixel, checker, scratch);
     AddSamples(target, pixel, gathered, lights, &splat);

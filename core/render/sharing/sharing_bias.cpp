@@ -132,7 +132,8 @@ std::optional<Spectrum> SharingChecker::Difference(Point2i pixel, int group,
     const GatherFragment& fragment = gathered.fragments[i];
     if (!fragment.HasGroup(group)) continue;
     const WindowFit fit(rows_, choice_.Windows(), {pixel, fragment}, scratch);
-    check.Add(i, fit.Difference(group) * choice_.ShareOf(pixel, fragment, fit.Window()));
+    const Spectrum difference = fit.Difference(group);
+    check.Add(i, difference * choice_.ShareOf(pixel, fit.Target(), fit.Window(), scratch));
   }
   return check.Difference();
 }

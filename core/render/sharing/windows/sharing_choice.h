@@ -26,9 +26,9 @@ class SharingChoice {
   const FragmentFits& Fits() const { return fits_; }
   // Returns the share of the fit in the light of a fragment. A window that shrinks below the
   // smallest fit ends sharing, whatever the share of that fit is, so both are multiplied.
-  Real ShareOf(Point2i pixel, const GatherFragment& fragment,
-               const SharingWindows::Window& window) const {
-    return window.share > 0 ? window.share * shares_.At(pixel, fragment) : 0;
+  Real ShareOf(Point2i pixel, const FitTarget& target, const SharingWindows::Window& window,
+               FitNeighbours* scratch) const {
+    return window.share > 0 ? window.share * shares_.At(pixel, target, scratch) : 0;
   }
 
  private:

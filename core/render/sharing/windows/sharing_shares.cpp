@@ -81,35 +81,24 @@ std::vector<Evidence> EvidenceOfAll(const FragmentFits::Source& source, const Fr
 
 SharingShares::SharingShares(const FragmentFits::Source& source, const FragmentFits& fits,
                              ThreadPool* threads)
-    : grid_(source.gathers, threads, [](Point2i pixel, const GatherFragment& fragment, int) {
-        return Place(pixel, fragment);
-      }) {
+    : grid_(source.gathers) {
   const std::vector<Evidence> all = EvidenceOfAll(source, fits, threads);
-  const PixelBounds& bounds = source.gathers.Bounds();
-  constexpr int kReachOfSum = int(kSumRadius);
-  grid_.ForAll(threads, [&](Place* place, int) {
+  std::vector<FitNeighbours> scratch(std::size_t(threads->Count()));
+  grid_.ForAll(threads, [&](Place* place, int worker) {
+    FitNeighbours& nearby = scratch[std::size_t(worker)];
+    LocalFit::CollectPlaces(source.rows, {place->target, place->pixel, kSumRadius}, &nearby);
     EvidenceSum sum;
-    const int x0 = std::max(place->pixel.x - kReachOfSum, bounds.x0);
-    const int x1 = std::min(place->pixel.x + kReachOfSum + 1, bounds.x1);
-    const int y0 = std::max(place->pixel.y - kReachOfSum, bounds.y0);
-    const int y1 = std::min(place->pixel.y + kReachOfSum + 1, bounds.y1);
-    for (int y = y0; y < y1; ++y) {
-      for (int x = x0; x < x1; ++x) {
-        const auto& fragments = source.gathers.At({x, y}).fragments;
-        for (std::size_t i = 0; i < fragments.size(); ++i) {
-          const Real weight = place->WeightOf(fragments[i].film, kSumRadius);
-          if (weight > 0 && place->IsOnSurfaceOf(PlaceSpot({x, y}, fragments[i])))
-            sum.Add(double(weight), all[source.rows.First({x, y}) + i]);
-        }
-      }
-    }
+    nearby.ForWeights([&](std::size_t i, Real weight) { sum.Add(double(weight), all[i]); });
     place->share = sum.Share();
   });
 }
 
-Real SharingShares::At(Point2i pixel, const GatherFragment& fragment) const {
+Real SharingShares::At(Point2i pixel, const FitTarget& target, FitNeighbours* scratch) const {
+  constexpr int kReachOfShare = int(kShareRadius);
+  if (grid_.HoldsAround(pixel, kReachOfShare, [](const Place& place) { return place.share == 1; }))
+    return 1;
   Real shares = 0, total = 0;
-  grid_.ForNearby(PlaceSpot(pixel, fragment), kShareRadius, [&](const Place& place, Real weight) {
+  grid_.ForNearby({target, pixel, kShareRadius}, scratch, [&](const Place& place, Real weight) {
     shares += weight * place.share;
     total += weight;
   });

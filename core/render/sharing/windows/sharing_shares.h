@@ -24,11 +24,11 @@ class SharingShares {
   SharingShares(const FragmentFits::Source& source, const FragmentFits& fits, ThreadPool* threads);
 
   // Returns the share of the fit in the light of a fragment, in [0,1].
-  Real At(Point2i pixel, const GatherFragment& fragment) const;
+  Real At(Point2i pixel, const FitTarget& target, FitNeighbours* scratch) const;
 
  private:
   struct Place : PlaceSpot {
-    using PlaceSpot::PlaceSpot;
+    explicit Place(const PlaceSpot& spot) : PlaceSpot(spot) {}
     Real share = 1;
   };
   PlaceGrid<Place> grid_;

@@ -29,23 +29,20 @@ struct Comparison {
 
 SharingWindows::SharingWindows(const GatherFragments& gathers, const FragmentRows& rows,
                                ThreadPool* threads)
-    : grid_(gathers, threads,
-            [&rows, scratch = std::vector<FitNeighbours>(std::size_t(threads->Count()))](
-                Point2i pixel, const GatherFragment& fragment, int worker) mutable {
-              return Judge(rows, pixel, fragment, &scratch[std::size_t(worker)]);
-            }) {
-  std::vector<std::vector<Nearby>> nearby(std::size_t(threads->Count()));
+    : grid_(gathers) {
+  std::vector<Scratch> scratch(std::size_t(threads->Count()));
+  grid_.ForAll(threads, [&](Place* place, int worker) {
+    Judge(rows, gathers.At(place->pixel).fragments[place->fragment], place,
+          &scratch[std::size_t(worker)].neighbours);
+  });
   grid_.ForAll(threads,
-               [&](Place* place, int worker) { Choose(place, &nearby[std::size_t(worker)]); });
+               [&](Place* place, int worker) { Choose(place, &scratch[std::size_t(worker)]); });
 }
 
-SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pixel,
-                                            const GatherFragment& fragment,
-                                            FitNeighbours* scratch) {
-  Place place(pixel, fragment);
-  if (!fragment.HasGroup(kChoosingGroups[0]) || !fragment.HasGroup(kChoosingGroups[1]))
-    return place;
-  LocalFit::Collect(rows, {FitTarget(fragment), pixel, kMaxRadius}, scratch);
+void SharingWindows::Judge(const FragmentRows& rows, const GatherFragment& fragment, Place* place,
+                           FitNeighbours* scratch) {
+  if (!fragment.HasGroup(kChoosingGroups[0]) || !fragment.HasGroup(kChoosingGroups[1])) return;
+  LocalFit::Collect(rows, {place->target, place->pixel, kMaxRadius}, scratch);
   std::array<std::array<Spectrum, kRadii.size()>, 2> fitted;
   for (std::size_t set = 0; set < 2; ++set) {
     const int group = kChoosingGroups[set];
@@ -56,25 +53,25 @@ SharingWindows::Place SharingWindows::Judge(const FragmentRows& rows, Point2i pi
   }
   const Spectrum smooth = (fitted[0].back() + fitted[1].back()) * Real(.5);
   const double scale = SquaredDifference(smooth, Spectrum());
-  if (!(scale > 0)) return place;
+  if (!(scale > 0)) return;
   for (std::size_t set = 0; set < 2; ++set) {
-    place.otherRecords[set] = fragment.count[std::size_t(kChoosingGroups[1 - set])];
+    place->otherRecords[set] = fragment.count[std::size_t(kChoosingGroups[1 - set])];
     for (std::size_t w = 0; w < kRadii.size(); ++w) {
       const auto& other = fitted[1 - set];
-      place.errors[set][w] = float(SquaredDifference(fitted[set][w], other[0]) / scale);
-      place.errorsOfFits[set][w] = float(SquaredDifference(fitted[set][w], other[1]) / scale);
+      place->errors[set][w] = float(SquaredDifference(fitted[set][w], other[0]) / scale);
+      place->errorsOfFits[set][w] = float(SquaredDifference(fitted[set][w], other[1]) / scale);
     }
   }
-  place.isJudged = true;
-  return place;
+  place->isJudged = true;
 }
 
-void SharingWindows::Choose(Place* place, std::vector<Nearby>* scratch) const {
-  std::vector<Nearby>& nearby = *scratch;
+void SharingWindows::Choose(Place* place, Scratch* scratch) const {
+  std::vector<Nearby>& nearby = scratch->nearby;
   nearby.clear();
-  grid_.ForNearby(*place, kChoiceRadius, [&](const Place& other, Real weight) {
-    if (other.isJudged) nearby.push_back({&other, weight});
-  });
+  grid_.ForNearby({place->target, place->pixel, kChoiceRadius}, &scratch->neighbours,
+                  [&](const Place& other, Real weight) {
+                    if (other.isJudged) nearby.push_back({&other, weight});
+                  });
   // Start with the smallest window that has a fit. Another window replaces the best one only if its
   // errors are clearly smaller. Fits are compared with a fit, which has much less noise than a
   // group's own light, so that better windows are recognised. Fireflies are in the light of a group
@@ -118,9 +115,10 @@ Real SharingWindows::NoiseAround(const std::vector<Nearby>& nearby, std::size_t 
   return total > 0 ? noise / total : 0;
 }
 
-SharingWindows::Window SharingWindows::At(Point2i pixel, const GatherFragment& fragment) const {
+SharingWindows::Window SharingWindows::At(Point2i pixel, const FitTarget& target,
+                                          FitNeighbours* scratch) const {
   Real radii = 0, noise = 0, total = 0;
-  grid_.ForNearby(PlaceSpot(pixel, fragment), kBlendRadius, [&](const Place& place, Real weight) {
+  grid_.ForNearby({target, pixel, kBlendRadius}, scratch, [&](const Place& place, Real weight) {
     if (!place.isJudged) return;
     radii += weight * place.radius;
     noise += weight * place.noise;

@@ -34,7 +34,7 @@ class SharingWindows {
   struct Window {
     Real radius, share, noise;
   };
-  Window At(Point2i pixel, const GatherFragment& fragment) const;
+  Window At(Point2i pixel, const FitTarget& target, FitNeighbours* scratch) const;
 
   // Makes the area of all windows smaller than the chosen one by this factor in (0,1].
   void Shrink(double area) { scale_ = Real(std::sqrt(area)); }
@@ -42,7 +42,7 @@ class SharingWindows {
  private:
   using Errors = std::array<std::array<float, kRadii.size()>, 2>;
   struct Place : PlaceSpot {
-    using PlaceSpot::PlaceSpot;
+    explicit Place(const PlaceSpot& spot) : PlaceSpot(spot) {}
     // Squared relative differences between the fit of each window and the other group's own light,
     // and its fit with the smallest window; by group of the fit.
     Errors errors{}, errorsOfFits{};
@@ -52,14 +52,19 @@ class SharingWindows {
     Real radius = 0, noise = 0;  // as in Window
   };
 
-  static Place Judge(const FragmentRows& rows, Point2i pixel, const GatherFragment& fragment,
-                     FitNeighbours* scratch);
   struct Nearby {  // a judged place on the surface of another one
     const Place* place;
     Real weight;
   };
+  struct Scratch {
+    FitNeighbours neighbours;
+    std::vector<Nearby> nearby;
+  };
+  // Fills errors. `fragment` is the one of the place.
+  static void Judge(const FragmentRows& rows, const GatherFragment& fragment, Place* place,
+                    FitNeighbours* scratch);
   // Fills radius and noise, which do not depend on those of other places.
-  void Choose(Place* place, std::vector<Nearby>* scratch) const;
+  void Choose(Place* place, Scratch* scratch) const;
   // Returns the noise of Window for fits of this window, from the places nearby.
   static Real NoiseAround(const std::vector<Nearby>& nearby, std::size_t window);
 

@@ -29,8 +29,8 @@ bool StandsOut(const GatherFragment& fragment, int group, const Spectrum& fit,
 WindowFit::WindowFit(const FragmentRows& rows, const SharingWindows& windows, const Place& place,
                      FitNeighbours* scratch)
     : fragment_(place.fragment),
-      window_(windows.At(place.pixel, place.fragment)),
       target_(place.fragment),
+      window_(windows.At(place.pixel, target_, scratch)),
       neighbours_(*scratch) {
   if (window_.share > 0) LocalFit::Collect(rows, {target_, place.pixel, window_.radius}, scratch);
 }

@@ -19,6 +19,7 @@ class WindowFit {
             FitNeighbours* scratch);
 
   const SharingWindows::Window& Window() const { return window_; }
+  const FitTarget& Target() const { return target_; }
   // Returns the fit to one set of records, which is stated by its first column; nullopt if the
   // fragment keeps its own light.
   std::optional<LocalFit> To(FragmentRows::Column set) const;
@@ -33,8 +34,8 @@ class WindowFit {
   bool IsDetail(const Spectrum& fit) const;
 
   const GatherFragment& fragment_;
-  SharingWindows::Window window_;
   FitTarget target_;
+  SharingWindows::Window window_;
   const FitNeighbours& neighbours_;
 };
 

@@ -225,7 +225,8 @@ std::array<FitMoments, 2> MomentsBy(const LocalFitLoops& loops, const FragmentRo
   FitNeighbours neighbours;
   neighbours.rows = &rows;
   neighbours.radius = 6;
-  for (int y = 4; y < 20; ++y) neighbours.ranges.push_back(rows.Fragments(3, 20, y));
+  rows.ForRowsAround({11, 12}, 8,
+                     [&](const FragmentRows::Range& range) { neighbours.ranges.push_back(range); });
   neighbours.Reserve(100);
   loops.describe(target, &neighbours);
   std::array<FitMoments, 2> moments;
@@ -304,12 +305,21 @@ TEST(LocalFit, KnowsTheInfluenceOfARecord) {
 
 Spectrum Noisy(Real light, RandomStream* random) { return Spectrum(light * 2 * random->Uniform()); }
 
+SharingWindows::Window WindowAt(const SharingWindows& windows, const GatherFragments& gathers,
+                                Point2i pixel) {
+  FitNeighbours scratch;
+  return windows.At(pixel, FitTarget(gathers.At(pixel).fragments[0]), &scratch);
+}
+
+Real RadiusAt(const GatherFragments& gathers, Point2i pixel) {
+  ThreadPool threads(1);
+  return WindowAt({gathers, FragmentRows(gathers), &threads}, gathers, pixel).radius;
+}
+
 TEST(SharingWindows, AreLargeWhereLightIsConstantAndNoisy) {
   const GatherFragments gathers =
       PlaneGathers(48, [](const Place&, RandomStream* random) { return Noisy(1, random); });
-  ThreadPool threads(1);
-  const SharingWindows windows(gathers, FragmentRows(gathers), &threads);
-  EXPECT_GE(windows.At({24, 24}, gathers.At({24, 24}).fragments[0]).radius, 6);
+  EXPECT_GE(RadiusAt(gathers, {24, 24}), 6);
 }
 
 // One gather in ten is bright. The noise of a group's own light hides which window is better there.
@@ -323,7 +333,7 @@ TEST(SharingWindows, AreLargeAmongFireflies) {
   int count = 0;
   for (int y = 24; y < 72; y += 4)
     for (int x = 24; x < 72; x += 4, ++count)
-      sum += double(windows.At({x, y}, gathers.At({x, y}).fragments[0]).radius);
+      sum += double(WindowAt(windows, gathers, {x, y}).radius);
   EXPECT_GT(sum / count, 7);
 }
 
@@ -334,7 +344,7 @@ TEST(SharingWindows, AreZeroWhereLightChangesQuickly) {
   });
   ThreadPool threads(1);
   const SharingWindows windows(gathers, FragmentRows(gathers), &threads);
-  EXPECT_EQ(windows.At({24, 24}, gathers.At({24, 24}).fragments[0]).share, 0);
+  EXPECT_EQ(WindowAt(windows, gathers, {24, 24}).share, 0);
 }
 
 TEST(SharingWindows, DoNotReachBeyondTheirMargin) {
@@ -342,12 +352,7 @@ TEST(SharingWindows, DoNotReachBeyondTheirMargin) {
     return Noisy(1 + place.x / 50, random);
   };
   GatherFragments gathers = PlaneGathers(96, light);
-  ThreadPool threads(1);
-  const auto radius = [&] {
-    return SharingWindows(gathers, FragmentRows(gathers), &threads)
-        .At({48, 48}, gathers.At({48, 48}).fragments[0])
-        .radius;
-  };
+  const auto radius = [&] { return RadiusAt(gathers, {48, 48}); };
   const Real before = radius();
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 96; ++x)
@@ -367,12 +372,7 @@ TEST(SharingWindows, DependOnGathersAtADistanceOf26Pixels) {
   const auto fragment = [&](int x) -> GatherFragment& { return gathers.At({x, 48}).fragments[0]; };
   for (const auto& [x, film] : {std::pair{50, 50.95}, {56, 56.5}, {68, 68.05}, {76, 76.05}})
     fragment(x).film.x = Real(film);
-  ThreadPool threads(1);
-  const auto radius = [&] {
-    return SharingWindows(gathers, FragmentRows(gathers), &threads)
-        .At({50, 48}, fragment(50))
-        .radius;
-  };
+  const auto radius = [&] { return RadiusAt(gathers, {50, 48}); };
   const Real before = radius();
   for (Spectrum& light : fragment(76).lights) light = Spectrum(100000);
   EXPECT_NE(radius(), before);

@@ -46,7 +46,9 @@ Real ShareAt(const GatherFragments& gathers, Point2i pixel) {
   const SharingWindows windows(gathers, rows, &threads);
   const FragmentFits::Source source{gathers, rows, windows};
   const FragmentFits fits(source, kSharedWall, {}, &threads);
-  return SharingShares(source, fits, &threads).At(pixel, gathers.At(pixel).fragments[0]);
+  FitNeighbours scratch;
+  return SharingShares(source, fits, &threads)
+      .At(pixel, FitTarget(gathers.At(pixel).fragments[0]), &scratch);
 }
 
 // Returns the mean squared error of the picture.
