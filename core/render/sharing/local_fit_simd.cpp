@@ -116,14 +116,17 @@ struct Surface8 {
         n(Vector8::All(target.n)),
         ng(Vector8::All(target.ng)),
         depth(Real8::All(target.depth)) {}
-  // Returns the fragments of a run that lie on the surface.
-  HWY_INLINE Mask8 Holds(const FragmentRows& rows, std::size_t i) const {
+  // Returns the fragments of a run that lie on the surface, out of some of them.
+  HWY_INLINE Mask8 Holds(const FragmentRows& rows, std::size_t i, const Mask8& some) const {
     using F = FragmentRows;
-    const Vector8 d = Vector8::Load(rows, F::Px, i) - p, normal = Vector8::Load(rows, F::Gx, i);
+    const Vector8 normal = Vector8::Load(rows, F::Gx, i);
+    const Mask8 turned = some & IsAtMost(Real8::All(kSurfaceMinCosine), Dot(normal, ng));
+    if (HasNone(turned)) return turned;
+    const Vector8 d = Vector8::Load(rows, F::Px, i) - p;
     const Real8 limit = Real8::All(kSurfaceMaxSlope2) * Dot(d, d), h = Dot(d, ng),
                 g = Dot(d, normal);
-    return IsAtMost(Real8::All(kSurfaceMinCosine), Dot(normal, ng)) & IsAtMost(h * h, limit) &
-           IsAtMost(g * g, limit) & IsEqual(Real8::LoadUnaligned(rows.At(F::Depth) + i), depth);
+    return turned & IsAtMost(h * h, limit) & IsAtMost(g * g, limit) &
+           IsEqual(Real8::LoadUnaligned(rows.At(F::Depth) + i), depth);
   }
   // Returns the fragments of a run that have the target's shading normal.
   HWY_INLINE Mask8 IsNormalOf(const Vector8& normals) const {
@@ -151,7 +154,7 @@ void DescribeWith(const FitTarget& target, FitNeighbours* out) {
       Mask8 mask = IsLess(Real8::All(0), kernel.At(d2));
       if (range.end - i < N::kRun) mask = mask & FirstLanes(range.end - i);
       if (HasNone(mask)) continue;
-      mask = mask & surface.Holds(rows, i);
+      mask = surface.Holds(rows, i, mask);
       if (HasNone(mask)) continue;
       store(N::Distance2, runs, Select(mask, d2, far));
       if constexpr (kHasFeatures) {
