@@ -49,7 +49,7 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   const NearBuffer buffer = BufferFor(nearest.k, arena);
   const NearPoints found = FastestNearestSearch().nearest(View(), nearest, buffer);
   if (found.size() < std::size_t(query.k)) return {found.index, found.distance2, maxRadius2 * area};
-  const Real floor2 = std::max(Square(minRadius_), std::numeric_limits<Real>::min());
+  const Real floor2 = SmallestRadius2();
   const Real farthest2 = found.distance2[found.farthest];
   // Coincident photons: the radius is at least the rounding error of positions.
   if (farthest2 < floor2) return {found.index, found.distance2, floor2};
@@ -63,16 +63,22 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
 PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena) const {
   const Arena::Mark mark = arena->GetMark();
   const PhotonNeighbourhood around = Find(query, arena);
+  const Real spacings = Real(kOwnDisk * query.k * query.diskArea),
+             largest2 = Square(query.maxDistance) * Real(query.diskArea);
   Spectrum positive, negative;  // of the photons with either sign
   for (std::size_t at = 0; at < around.photons.size(); ++at) {
-    if (around.distance2[at] > around.radius2) continue;
     const std::uint32_t i = around.photons[at];
-    const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1);
-    (Sign(i) > 0 ? positive : negative) += Alpha(i) * coat;
+    const Real distance2 = around.distance2[at],
+               disk2 = std::clamp(spacing2_[i / PointTreeView::kSpacingPoints] * spacings,
+                                  SmallestRadius2(), largest2);
+    if (distance2 > disk2) continue;
+    const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1),
+               weight = distance2 > 0 ? Real(1) : query.weightAtP;
+    (Sign(i) > 0 ? positive : negative) += Alpha(i) * (weight * coat / disk2);
   }
   arena->Rewind(mark);
   if (around.photons.empty()) return {{}, {}, std::sqrt(around.radius2)};
-  const Real scale = kInvPi / (Real(paths_) * around.radius2);
+  const Real scale = kInvPi / Real(paths_);
   return {(positive + negative) * scale, (positive - negative) * scale, std::sqrt(around.radius2)};
 }
 

@@ -4,6 +4,8 @@
 // photons are traced.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,6 +27,7 @@ struct PhotonQuery {
   // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
   double diskArea = 1;  // of the disk, relative to the one that k and maxDistance give; in (0,1]
+  Real weightAtP = 1;   // for irradiance: of photons at p itself
 };
 
 // PhotonNeighbourhood holds the photons of one density estimate. If k photons are found, the k-th
@@ -80,8 +83,14 @@ class PhotonMap {
   // coincide, all of them count and the radius is the rounding error of positions.
   PhotonNeighbourhood Find(const PhotonQuery& query, Arena* arena) const;
 
-  // Estimates the irradiance on the side of n with the constant kernel, sum(alpha) / (N pi r^2).
-  // Returns r too, and the estimate in which each photon has its sign.
+  // The disk of a single photon holds about this part of k photons.
+  static constexpr double kOwnDisk = .6;
+
+  // Estimates the irradiance on the side of n, sum(alpha_i / (pi r_i^2)) / N over the k nearest
+  // photons whose own disk of radius r_i, at most maxDistance, reaches p. A disk of the photon's
+  // surroundings keeps dense light together, where the k nearest photons of a dark point would
+  // spread it (docs/decisions/0108-disks-of-photons.md). Returns the radius of Find too, and the
+  // estimate in which each photon has its sign.
   struct Irradiance {
     Spectrum e;
     Spectrum signedE;
@@ -105,8 +114,12 @@ class PhotonMap {
     return view;
   }
 
+  Real SmallestRadius2() const {
+    return std::max(Square(minRadius_), std::numeric_limits<Real>::min());
+  }
+
   PointTree<PhotonBlock> tree_;
-  std::vector<Real> spacing2_;  // local squared spacing; speeds up searches
+  std::vector<Real> spacing2_;  // MeasureSpacing2
   std::int64_t paths_ = 0;
   bool isGuided_ = false;
   Real farthest_ = 0;

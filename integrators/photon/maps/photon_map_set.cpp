@@ -6,6 +6,7 @@
 #include "core/base/progress.h"
 #include "core/transport/shading_normal.h"
 #include "integrators/photon/maps/density_kernel.h"
+#include "integrators/photon/maps/own_photon_weight.h"
 #include "integrators/photon/maps/rest_pose.h"
 
 namespace exphoton {
@@ -26,6 +27,15 @@ Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
   return sceneRadius * (photons < std::size_t(nUsed) ? Real(.01) : Real(1e-6));
 }
 
+// Returns the weight of the photon at a radiance photon. Smaller disks have as many radiance
+// photons.
+Real WeightOfOwnPhoton(const PhotonSettings& settings) {
+  const double ofDisk = double(settings.radianceFraction) * settings.nUsed;
+  if (!(ofDisk > 0) || !(settings.radianceReach > 0)) return 1;
+  return Real(OwnPhotonWeight(PhotonMap::kOwnDisk * ofDisk,
+                              ofDisk * double(Square(settings.radianceReach))));
+}
+
 }  // namespace
 
 std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buffers,
@@ -42,7 +52,10 @@ std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buff
 
 PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings,
                            Real sceneRadius, PreprocessContext& context)
-    : nUsed_(settings.nUsed), diskArea_(context.diskArea), kernel_(settings.kernel) {
+    : nUsed_(settings.nUsed),
+      ownWeight_(WeightOfOwnPhoton(settings)),
+      diskArea_(context.diskArea),
+      kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
   auto trees = MakePhotonTrees(result->buffers, context.threads);
   Arena arena;
@@ -169,8 +182,8 @@ PhotonMap::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const No
   Real weight = 0, weightedRadius = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
-    const auto part =
-        maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated, diskArea_}, arena);
+    const auto part = maps_[m].EstimateIrradiance(
+        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, ownWeight_}, arena);
     total.e += part.e;
     total.signedE += part.signedE;
     weight += part.e.Y();

@@ -56,8 +56,9 @@ class PhotonMapSet {
   // Returns the photons per unit area, of all three maps, that an estimate at the point would use.
   double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
 
-  // Returns the irradiance on the side of n, summed over all three maps. The radius is the mean of
-  // the maps' radii, weighted by the luminance that each map contributed.
+  // Returns the irradiance on the side of n, summed over all three maps. A photon at p itself
+  // counts as the one of a radiance photon does. The radius is the mean of the maps' radii,
+  // weighted by the luminance that each map contributed.
   PhotonMap::Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena,
                                            bool isCoated = false) const;
 
@@ -76,6 +77,7 @@ class PhotonMapSet {
   std::array<PhotonMap, kPhotonKindCount> maps_;
   std::array<Real, kPhotonKindCount> radii_{};
   int nUsed_ = 50;
+  Real ownWeight_ = 1;   // OwnPhotonWeight
   double diskArea_ = 1;  // as in PreprocessContext
   DensityKernel kernel_ = DensityKernel::Constant;
 };

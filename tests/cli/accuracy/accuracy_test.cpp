@@ -268,7 +268,7 @@ TEST_F(AccuracyTest, TakesFewerPhotonsWhereTheyAreMany) {
 
 // 20 photons blur all light, so their bias is far above 2 %.
 TEST_F(AccuracyTest, TakesMorePhotonsAgainstBias) {
-  WriteRoom("few.pbrt", "exphotonmap", 40);
+  WriteRoom("few.pbrt", "exphotonmap", 20);
   const Names one{"--integrator", "exphotonmap"};
   const ProgramResult more = Render("4%", one, "few.pbrt");
   ASSERT_EQ(more.status, 0) << more.err;

@@ -31,7 +31,7 @@ class OmissionTest : public ProgramTest {
 bool Has(const std::string& text, const char* part) { return text.find(part) != text.npos; }
 
 TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
-  const std::string err = Render({"--accuracy", "3%"});
+  const std::string err = Render({"--accuracy", "2.5%"});
   EXPECT_TRUE(Has(err, "caustics off: at most 0.")) << err;
   EXPECT_TRUE(Has(err, " % of the light, would take ")) << err;
   EXPECT_TRUE(Has(err, "of which effects left out are at most 0.")) << err;
@@ -41,7 +41,7 @@ TEST_F(OmissionTest, SaysWhatItLeavesOutAndAddsItToTheError) {
   EXPECT_EQ(omitted[0].at("effect"), "caustics");
   const double bound = omitted[0].at("bound"), time = omitted[0].at("time");
   EXPECT_GT(bound, 0);
-  EXPECT_LE(bound, .003);  // a tenth of the accuracy
+  EXPECT_LE(bound, .0025);  // a tenth of the accuracy
   EXPECT_GT(time, .5);
   // The pilot with all photons of the picture lacks the effect already, so the picture takes them.
   EXPECT_TRUE(json.at("accuracy").at("pilots").at("givesPhotons"));
@@ -61,13 +61,13 @@ TEST_F(OmissionTest, ThePilotWithAllPhotonsLacksTheEffect) {
     Render(options);
     return Statistics().at("accuracy").at("pilots").at("causticPhotons").get<double>();
   };
-  const double without = causticPhotons({"--accuracy", "3%"});
-  EXPECT_LT(without, causticPhotons({"--accuracy", "3%", "--effects", "all"}));
+  const double without = causticPhotons({"--accuracy", "2.5%"});
+  EXPECT_LT(without, causticPhotons({"--accuracy", "2.5%", "--effects", "all"}));
 }
 
 TEST_F(OmissionTest, KeepsWhatTheUserNames) {
   for (const char* effects : {"all", "glossy=on,caustics=on"}) {
-    const std::string err = Render({"--accuracy", "3%", "--effects", effects});
+    const std::string err = Render({"--accuracy", "2.5%", "--effects", effects});
     EXPECT_FALSE(Has(err, "caustics off")) << err;
     EXPECT_TRUE(Statistics().at("accuracy").at("omitted").empty());
     EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
@@ -76,8 +76,8 @@ TEST_F(OmissionTest, KeepsWhatTheUserNames) {
 
 // An effect with more light than a tenth of the accuracy needs no pairs of renders.
 TEST_F(OmissionTest, TriesNoEffectThatBringsMuchLight) {
-  const std::string accurate = Render({"--accuracy", "3%", "--verbose"});
-  EXPECT_TRUE(Has(accurate, "indirect stays on: 21 % of the light of a pilot")) << accurate;
+  const std::string accurate = Render({"--accuracy", "2.5%", "--verbose"});
+  EXPECT_TRUE(Has(accurate, "indirect stays on: 18 % of the light of a pilot")) << accurate;
   EXPECT_TRUE(Has(accurate, "caustics off")) << accurate;
   EXPECT_FALSE(Has(accurate, "specular stays on")) << accurate;
   EXPECT_TRUE(Statistics().at("effects").at("indirect").at("on"));
@@ -96,7 +96,7 @@ TEST_F(OmissionTest, TriesNothingThatCannotPay) {
 }
 
 TEST_F(OmissionTest, LeavesOutNothingWithKeep) {
-  EXPECT_FALSE(Has(Render({"--accuracy", "3%", "--keep"}), "caustics off"));
+  EXPECT_FALSE(Has(Render({"--accuracy", "2.5%", "--keep"}), "caustics off"));
   EXPECT_TRUE(Statistics().at("effects").at("caustics").at("on"));
 }
 
@@ -112,7 +112,7 @@ TEST_F(OmissionTest, DoesNotDependOnThreads) {
   std::string pictures[3];
   const char* const threads[] = {"1", "2", "7"};
   for (int i = 0; i < 3; ++i) {
-    Render({"--accuracy", "3%", "--nthreads", threads[i], "--reproducible"});
+    Render({"--accuracy", "2.5%", "--nthreads", threads[i], "--reproducible"});
     pictures[i] = Read("room.exr");
   }
   EXPECT_EQ(pictures[0], pictures[1]);

@@ -183,6 +183,19 @@ TEST_F(PhotonEstimates, AreSumsOfKernelTimesScatteredPower) {
   }
 }
 
+// Returns the squared radius of the own disk of the photon at p. Runs of 64 photons in the order of
+// the map share a spacing, which 32 neighbours of the middle one show.
+double OwnDisk2(const PhotonMap& map, const Point3& p, int k, double maxDistance) {
+  std::uint32_t at = 0;
+  while (map.Position(at) != p) ++at;
+  const auto middle = std::min(at / 64 * 64 + 32, std::uint32_t(map.Size()) - 1);
+  std::vector<double> distances2;
+  for (std::uint32_t i = 0; i < map.Size(); ++i)
+    distances2.push_back(double(LengthSquared(map.Position(i) - map.Position(middle))));
+  std::nth_element(distances2.begin(), distances2.begin() + 31, distances2.end());
+  return std::min(PhotonMap::kOwnDisk * k * distances2[31] / 32, maxDistance * maxDistance);
+}
+
 TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
   for (const bool isCoated : {false, true}) {
     for (const int k : {30, 1000}) {
@@ -196,12 +209,14 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
           const Estimate estimate(photons_[m], n, k, .7, true);
           double part[3] = {};
           for (const auto& [photon, distance2] : estimate.photons) {
+            const double disk2 = OwnDisk2(maps.Map(PhotonKind(m)), photon.p, k, .7);
+            if (distance2 > disk2) continue;
             const double x = 1 - std::abs(double(photon.wi.z)) / 2;
             const double passed = isCoated ? (1 - std::pow(x, 5)) * 28 / 23 : 1;
-            for (int c = 0; c < 3; ++c) part[c] += passed * double(photon.alpha[c]);
+            for (int c = 0; c < 3; ++c) part[c] += passed * double(photon.alpha[c]) / disk2;
           }
           for (int c = 0; c < 3; ++c) {
-            part[c] /= kPaths[m] * M_PI * estimate.radius2;
+            part[c] /= kPaths[m] * M_PI;
             sum[c] += part[c];
           }
           const double y = double(Spectrum(Real(part[0]), Real(part[1]), Real(part[2])).Y());

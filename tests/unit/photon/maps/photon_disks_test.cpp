@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests scatter photons over a plane, and compare estimates of irradiance with their density.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/math/sampling/random.h"
+#include "integrators/photon/maps/own_photon_weight.h"
+#include "integrators/photon/maps/photon_map.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kNearest = 50;
+
+// Returns photons on the part of a unit square where x is below `edge`, with the density 10000.
+PhotonMap PlanePhotons(std::uint64_t seed, Real edge) {
+  RandomStream random(seed);
+  std::vector<Photon> photons;
+  for (int i = 0; i < 10000; ++i) {
+    const Point3 p{random.Uniform(), random.Uniform(), 0};
+    if (p.x < edge) photons.push_back({p, {0, 0, 1}, Spectrum(1)});
+  }
+  ThreadPool threads(1);
+  return PhotonMap(PhotonBuffer(photons, 10000), threads);
+}
+
+double IrradianceAt(const PhotonMap& map, const Point3& p, Real weightAtP = 1) {
+  Arena arena;
+  const PhotonQuery query{p, {0, 0, 1}, kNearest, Real(.2), true, false, 1, weightAtP};
+  return double(map.EstimateIrradiance(query, &arena).e.g);
+}
+
+// The radius of k photons, and of the own disk of one.
+const double kRadius = std::sqrt(kNearest / 10000. / std::numbers::pi);
+const double kDiskRadius = std::sqrt(PhotonMap::kOwnDisk) * kRadius;
+
+TEST(PhotonDisks, GiveTheDensityOfAPlane) {
+  double sum = 0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const PhotonMap map = PlanePhotons(seed, 1);
+    RandomStream random(100 + seed);
+    for (int i = 0; i < 1000; ++i, ++count)
+      sum += IrradianceAt(
+          map, {Real(.1) + Real(.8) * random.Uniform(), Real(.1) + Real(.8) * random.Uniform(), 0});
+  }
+  EXPECT_NEAR(sum / count, 1, .004);
+}
+
+// A dark point finds k photons beyond the edge, but their disks do not reach it.
+TEST(PhotonDisks, DoNotReachFarIntoTheDark) {
+  constexpr double kStep = .05;  // in units of the own disk
+  double lost = 0, gained = 0, beyond = 0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const PhotonMap map = PlanePhotons(seed, Real(.5));
+    for (Real y = Real(.2); y < Real(.8); y += Real(.06), ++count) {
+      for (double d = kStep / 2; d < 5; d += kStep) {
+        const Real x = Real(d * kDiskRadius);
+        if (d < 2) lost += 1 - IrradianceAt(map, {Real(.5) - x, y, 0});
+        const double dark = IrradianceAt(map, {Real(.5) + x, y, 0});
+        gained += dark;
+        if (d > 1.5) beyond += dark;
+      }
+    }
+  }
+  // Disks of one size would lose and gain 2 / (3 pi) of their radius. At the edge they are larger.
+  EXPECT_NEAR(lost / count * kStep, .25, .05);
+  EXPECT_NEAR(gained / count * kStep, lost / count * kStep, .03);
+  EXPECT_LT(beyond, .05 * gained);
+}
+
+TEST(PhotonDisks, LargestRadiusBoundsThem) {
+  std::vector<Photon> photons;
+  for (const Real x : {Real(0), Real(1), Real(9)})
+    photons.push_back({{x, 0, 0}, {0, 0, 1}, Spectrum(1)});
+  Arena arena;
+  ThreadPool threads(1);
+  const PhotonMap map(PhotonBuffer(photons, 1), threads);
+  const auto at = [&](Real x) {
+    return double(map.EstimateIrradiance({{x, 0, 0}, {0, 0, 1}, kNearest, 2, true}, &arena).e.g *
+                  kPi * 4);
+  };
+  EXPECT_NEAR(at(Real(.5)), 2, 1e-5);
+  EXPECT_NEAR(at(Real(2.5)), 1, 1e-5);
+  EXPECT_NEAR(at(5), 0, 1e-5);
+}
+
+// One photon in eight has a radiance photon. Points read the nearest one.
+TEST(PhotonDisks, HaveTheTrueMeanAtTheNearestRadiancePhoton) {
+  constexpr double kShare = .125;
+  const Real weight =
+      Real(OwnPhotonWeight(PhotonMap::kOwnDisk * kNearest * kShare, kNearest * kShare));
+  double sum = 0;
+  int count = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const PhotonMap map = PlanePhotons(seed, 1);
+    std::vector<Photon> chosen;
+    RandomStream random(100 + seed);
+    for (std::uint32_t i = 0; i < map.Size(); ++i)
+      if (double(random.Uniform()) < kShare)
+        chosen.push_back({map.Position(i), {0, 0, 1}, Spectrum(1)});
+    ThreadPool threads(1);
+    const PhotonMap sites(PhotonBuffer(chosen, 1), threads);
+    Arena arena;
+    for (int i = 0; i < 1000; ++i) {
+      const Point3 p{Real(.15) + Real(.7) * random.Uniform(),
+                     Real(.15) + Real(.7) * random.Uniform(), 0};
+      const Point3 site = sites.Position(sites.Nearest(p, 1, &arena).index[0]);
+      if (double(Length(site - p)) > kRadius) continue;
+      sum += IrradianceAt(map, site, weight);
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum / count, 1, .004);
+}
+
+// The circle about a point that ends at the nearest radiance photon is wholly in a large disk, and
+// holds one radiance photon in the mean. A small disk is half filled with it.
+TEST(OwnPhotonWeight, FollowsTheSizeOfTheDisk) {
+  EXPECT_NEAR(OwnPhotonWeight(1000, 1000), 1, 1e-3);
+  EXPECT_NEAR(OwnPhotonWeight(.001, 1000) / .0005, 1, .05);
+  EXPECT_NEAR(OwnPhotonWeight(3.75, 6.25), .72, .001);
+  double last = 0;
+  for (double inDisk = .1; inDisk < 100; inDisk *= 2) {
+    const double weight = OwnPhotonWeight(inDisk, 6.25);
+    EXPECT_GE(weight, last);
+    last = weight;
+  }
+}
+
+}  // namespace
+}  // namespace exphoton
