@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // EntryGrid and MeasureSpacing2 choose how searches begin: the block to scan first, and the
-// first radius to try. They affect the time of a search only, never its result.
+// first radius to try. They affect the time of a search only, never its result. Density estimates
+// may use the spacing as well.
 #pragma once
 
 #include <algorithm>

@@ -120,12 +120,12 @@ struct Surface8 {
   HWY_INLINE Mask8 Holds(const FragmentRows& rows, std::size_t i, const Mask8& some) const {
     using F = FragmentRows;
     const Vector8 normal = Vector8::Load(rows, F::Gx, i);
-    const Mask8 turned = some & IsAtMost(Real8::All(kSurfaceMinCosine), Dot(normal, ng));
-    if (HasNone(turned)) return turned;
+    const Mask8 aligned = some & IsAtMost(Real8::All(kSurfaceMinCosine), Dot(normal, ng));
+    if (HasNone(aligned)) return aligned;
     const Vector8 d = Vector8::Load(rows, F::Px, i) - p;
     const Real8 limit = Real8::All(kSurfaceMaxSlope2) * Dot(d, d), h = Dot(d, ng),
                 g = Dot(d, normal);
-    return turned & IsAtMost(h * h, limit) & IsAtMost(g * g, limit) &
+    return aligned & IsAtMost(h * h, limit) & IsAtMost(g * g, limit) &
            IsEqual(Real8::LoadUnaligned(rows.At(F::Depth) + i), depth);
   }
   // Returns the fragments of a run that have the target's shading normal.
