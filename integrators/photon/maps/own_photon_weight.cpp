@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// OwnPhotonWeight: the mean overlap of the empty circle and the disk, by the midpoint rule.
+// OwnPhotonWeight: a table of the mean overlap of the empty circle and the disk.
 #include "integrators/photon/maps/own_photon_weight.h"
 
 #include <algorithm>
@@ -19,23 +19,37 @@ double OverlapArea(double d, double disk) {
   return SegmentArea(d, std::numbers::pi - 2 * ofDisk) + SegmentArea(disk, ofDisk);
 }
 
-}  // namespace
-
 // The unit of area holds one radiance photon. The distance d of the nearest one has the density
 // 2 pi d exp(-pi d^2), so pi d^2 is distributed exponentially.
-double OwnPhotonWeight(double inDisk, double inReach) {
-  constexpr int kSteps = 1000;
+double MeanOverlap(double inDisk, double inReach) {
+  constexpr int kDistances = 1000;
   constexpr double kFarthest = 30;  // exp(-30) is negligible
   const double disk = std::sqrt(inDisk / std::numbers::pi);
   const double farthest = std::sqrt(std::min(inReach, kFarthest) / std::numbers::pi);
   double sum = 0, total = 0;
-  for (int i = 0; i < kSteps; ++i) {
-    const double d = farthest * (i + .5) / kSteps;
+  for (int i = 0; i < kDistances; ++i) {
+    const double d = farthest * (i + .5) / kDistances;
     const double density = d * std::exp(-std::numbers::pi * d * d);
     sum += density * OverlapArea(d, disk);
     total += density;
   }
   return std::clamp(sum / total, 0., 1.);
+}
+
+}  // namespace
+
+OwnPhotonWeight::OwnPhotonWeight(double share, double photonsInReach) : share_(share) {
+  for (std::size_t i = 0; i <= kSteps; ++i) {
+    const double step = double(i) / double(kSteps);
+    weights_[i] = MeanOverlap(step * step * kMostInDisk, share * photonsInReach);
+  }
+}
+
+double OwnPhotonWeight::In(double photonsInDisk) const {
+  const double inDisk = std::min(share_ * photonsInDisk, kMostInDisk);
+  const double at = std::sqrt(std::max(inDisk, 0.) / kMostInDisk) * double(kSteps);
+  const std::size_t i = std::min(std::size_t(at), kSteps - 1);
+  return weights_[i] + (at - double(i)) * (weights_[i + 1] - weights_[i]);
 }
 
 }  // namespace exphoton

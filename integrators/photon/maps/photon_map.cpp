@@ -65,6 +65,8 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
   const PhotonNeighbourhood around = Find(query, arena);
   const Real spacings = Real(kOwnDisk * query.k * query.diskArea),
              largest2 = Square(query.maxDistance) * Real(query.diskArea);
+  // Photons in a disk whose squared radius is 1.
+  const double density = double(around.photons.size()) / double(around.radius2) * query.diskArea;
   Spectrum positive, negative;  // of the photons with either sign
   for (std::size_t at = 0; at < around.photons.size(); ++at) {
     const std::uint32_t i = around.photons[at];
@@ -73,7 +75,9 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
                                   SmallestRadius2(), largest2);
     if (distance2 > disk2) continue;
     const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1),
-               weight = distance2 > 0 ? Real(1) : query.weightAtP;
+               weight = distance2 > 0 || !query.ownWeight
+                            ? Real(1)
+                            : Real(query.ownWeight->In(density * double(disk2)));
     (Sign(i) > 0 ? positive : negative) += Alpha(i) * (weight * coat / disk2);
   }
   arena->Rewind(mark);

@@ -11,6 +11,7 @@
 
 #include "core/base/arena.h"
 #include "core/spatial/nearest_search.h"
+#include "integrators/photon/maps/own_photon_weight.h"
 #include "integrators/photon/maps/photon.h"
 
 namespace exphoton {
@@ -27,7 +28,8 @@ struct PhotonQuery {
   // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
   double diskArea = 1;  // of the disk, relative to the one that k and maxDistance give; in (0,1]
-  Real weightAtP = 1;   // for irradiance: of photons at p itself
+  // For irradiance: the weight of a photon at p itself; null: 1.
+  const OwnPhotonWeight* ownWeight = nullptr;
 };
 
 // PhotonNeighbourhood holds the photons of one density estimate. If k photons are found, the k-th

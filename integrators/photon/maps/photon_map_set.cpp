@@ -6,7 +6,6 @@
 #include "core/base/progress.h"
 #include "core/transport/shading_normal.h"
 #include "integrators/photon/maps/density_kernel.h"
-#include "integrators/photon/maps/own_photon_weight.h"
 #include "integrators/photon/maps/rest_pose.h"
 
 namespace exphoton {
@@ -27,13 +26,11 @@ Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
   return sceneRadius * (photons < std::size_t(nUsed) ? Real(.01) : Real(1e-6));
 }
 
-// Returns the weight of the photon at a radiance photon. Smaller disks have as many radiance
-// photons.
-Real WeightOfOwnPhoton(const PhotonSettings& settings) {
-  const double ofDisk = double(settings.radianceFraction) * settings.nUsed;
-  if (!(ofDisk > 0) || !(settings.radianceReach > 0)) return 1;
-  return Real(OwnPhotonWeight(PhotonMap::kOwnDisk * ofDisk,
-                              ofDisk * double(Square(settings.radianceReach))));
+// Smaller disks have as many radiance photons, because their share grows.
+OwnPhotonWeight WeightOfOwnPhoton(const PhotonSettings& settings, double diskArea) {
+  const double share = double(settings.radianceFraction) / diskArea;
+  const double inReach = settings.nUsed * double(Square(settings.radianceReach)) * diskArea;
+  return share * inReach > 0 ? OwnPhotonWeight(share, inReach) : OwnPhotonWeight();
 }
 
 }  // namespace
@@ -53,7 +50,7 @@ std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buff
 PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings,
                            Real sceneRadius, PreprocessContext& context)
     : nUsed_(settings.nUsed),
-      ownWeight_(WeightOfOwnPhoton(settings)),
+      ownWeight_(WeightOfOwnPhoton(settings, context.diskArea)),
       diskArea_(context.diskArea),
       kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
@@ -183,7 +180,7 @@ PhotonMap::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const No
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
     const auto part = maps_[m].EstimateIrradiance(
-        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, ownWeight_}, arena);
+        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, &ownWeight_}, arena);
     total.e += part.e;
     total.signedE += part.signedE;
     weight += part.e.Y();

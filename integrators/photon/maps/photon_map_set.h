@@ -77,8 +77,8 @@ class PhotonMapSet {
   std::array<PhotonMap, kPhotonKindCount> maps_;
   std::array<Real, kPhotonKindCount> radii_{};
   int nUsed_ = 50;
-  Real ownWeight_ = 1;   // OwnPhotonWeight
-  double diskArea_ = 1;  // as in PreprocessContext
+  OwnPhotonWeight ownWeight_;  // OwnPhotonWeight
+  double diskArea_ = 1;        // as in PreprocessContext
   DensityKernel kernel_ = DensityKernel::Constant;
 };
 

@@ -26,9 +26,10 @@ PhotonMap PlanePhotons(std::uint64_t seed, Real edge) {
   return PhotonMap(PhotonBuffer(photons, 10000), threads);
 }
 
-double IrradianceAt(const PhotonMap& map, const Point3& p, Real weightAtP = 1) {
+double IrradianceAt(const PhotonMap& map, const Point3& p,
+                    const OwnPhotonWeight* ownWeight = nullptr) {
   Arena arena;
-  const PhotonQuery query{p, {0, 0, 1}, kNearest, Real(.2), true, false, 1, weightAtP};
+  const PhotonQuery query{p, {0, 0, 1}, kNearest, Real(.2), true, false, 1, ownWeight};
   return double(map.EstimateIrradiance(query, &arena).e.g);
 }
 
@@ -91,8 +92,7 @@ TEST(PhotonDisks, LargestRadiusBoundsThem) {
 // One photon in eight has a radiance photon. Points read the nearest one.
 TEST(PhotonDisks, HaveTheTrueMeanAtTheNearestRadiancePhoton) {
   constexpr double kShare = .125;
-  const Real weight =
-      Real(OwnPhotonWeight(PhotonMap::kOwnDisk * kNearest * kShare, kNearest * kShare));
+  const OwnPhotonWeight weight(kShare, kNearest);
   double sum = 0;
   int count = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -110,7 +110,7 @@ TEST(PhotonDisks, HaveTheTrueMeanAtTheNearestRadiancePhoton) {
                      Real(.15) + Real(.7) * random.Uniform(), 0};
       const Point3 site = sites.Position(sites.Nearest(p, 1, &arena).index[0]);
       if (double(Length(site - p)) > kRadius) continue;
-      sum += IrradianceAt(map, site, weight);
+      sum += IrradianceAt(map, site, &weight);
       ++count;
     }
   }
@@ -118,14 +118,16 @@ TEST(PhotonDisks, HaveTheTrueMeanAtTheNearestRadiancePhoton) {
 }
 
 // The circle about a point that ends at the nearest radiance photon is wholly in a large disk, and
-// holds one radiance photon in the mean. A small disk is half filled with it.
+// holds one radiance photon in the mean. Half of a small disk lies in it.
 TEST(OwnPhotonWeight, FollowsTheSizeOfTheDisk) {
-  EXPECT_NEAR(OwnPhotonWeight(1000, 1000), 1, 1e-3);
-  EXPECT_NEAR(OwnPhotonWeight(.001, 1000) / .0005, 1, .05);
-  EXPECT_NEAR(OwnPhotonWeight(3.75, 6.25), .72, .001);
+  EXPECT_NEAR(OwnPhotonWeight(1, 1000).In(1000), 1, .01);
+  EXPECT_NEAR(OwnPhotonWeight(.5, 1000).In(.4), .1, .02);
+  EXPECT_NEAR(OwnPhotonWeight(.125, 50).In(30), .72, .005);
+  EXPECT_NEAR(OwnPhotonWeight(.125, 50).In(50), .865, .005);
+  EXPECT_EQ(OwnPhotonWeight().In(3), 1);
   double last = 0;
-  for (double inDisk = .1; inDisk < 100; inDisk *= 2) {
-    const double weight = OwnPhotonWeight(inDisk, 6.25);
+  for (double inDisk = 0; inDisk < 200; inDisk += 1) {
+    const double weight = OwnPhotonWeight(.125, 50).In(inDisk);
     EXPECT_GE(weight, last);
     last = weight;
   }
