@@ -18,10 +18,14 @@ namespace {
 constexpr double kPi64 = 3.14159265358979;
 constexpr double kReflected = .3, kTransmitted = .6;
 // Photons above and below the pane have these powers. The irradiance on each side is the power
-// times the density of the lattice. Around a lattice point, 49 points are nearer than the 50th,
-// whose squared distance is .17.
+// times the density of the lattice.
 constexpr double kAbove = 1, kBelow = 3;
-constexpr double kLattice = 49 / (.17 * kPi64) / 100;
+// The 32nd photon of both sides has the squared distance .05 from a lattice point. Disks of photons
+// follow from it, and hold 12 points besides the centre. The 50th point has the squared distance
+// .17.
+constexpr double kDisk2 = PhotonMap::kOwnDisk * 50 * .05 / 32;
+const double kLattice =
+    (12 + OwnPhotonWeight(.125, 50).In(49 / .17 * kDisk2)) / (kDisk2 * kPi64) / 100;
 
 const char* const kPane =
     "Material \"translucent\" \"color Kd\" [1 1 1] \"color Ks\" [0 0 0] \"color reflect\" [.3 .3 "
