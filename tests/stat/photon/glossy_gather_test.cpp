@@ -107,11 +107,13 @@ class OneDirection : public testing::TestWithParam<MaterialCase> {};
 TEST_P(OneDirection, IsReflectedWithTheRightEnergyInTheRightDirection) {
   for (const double degrees : {40., 65.}) {
     const std::string scene = SquareUnderOneDirection(GetParam().text, degrees);
-    const SeedEstimate mean = EstimateOverSeeds([&](std::uint64_t seed) {
-      TestRenderOptions options;
-      options.seed = seed;
-      return MeanRadiance(RenderSceneText(scene, options).image);
-    });
+    const SeedEstimate mean = EstimateOverSeeds(
+        [&](std::uint64_t seed) {
+          TestRenderOptions options;
+          options.seed = seed;
+          return MeanRadiance(RenderSceneText(scene, options).image);
+        },
+        2 * kGateSeeds);
     EXPECT_TRUE(IsWithin(.01, mean, DiskRadiance(scene, degrees))) << degrees << " degrees";
   }
 }
