@@ -56,7 +56,7 @@ struct PointTreeView {
   std::size_t blockBytes = sizeof(PointBlock);
   std::uint32_t count = 0;  // number of points
   // For each run of kSpacingPoints points: the squared radius round the middle point that is
-  // expected to contain one point. It affects the time of a search only. May be null.
+  // expected to contain one point. Of searches, it affects the time only. May be null.
   const Real* spacing2 = nullptr;
   const EntryGrid* grid = nullptr;  // entry points of closest-disk queries; may be null
 

@@ -14,7 +14,6 @@ namespace {
 // A run is a sequence of kSpacingPoints points that share one value of spacing2. spacing2 is the
 // squared distance to the k-th neighbour divided by k. On a surface this hardly depends on k.
 constexpr std::uint32_t kRunBlocks = PointTreeView::kSpacingPoints / kBlockPoints;
-constexpr std::uint32_t kNeighbours = 32;
 // Lower bound of spacing2, relative to the squared diagonal of all points. It keeps the first
 // search radius above 0.
 constexpr Real kMinRelativeSpacing2 = Real(1) / Real(std::uint64_t(1) << 40);
@@ -84,10 +83,10 @@ std::vector<Real> MeasureSpacing2(PointTreeView view, ThreadPool& threads) {
   view.spacing2 = guess2.data();
   constexpr std::int64_t kChunk = 256;
   threads.For((runs + kChunk - 1) / kChunk, [&](std::int64_t chunk, int) {
-    std::vector<Real> distance2(NearBuffer::SizeFor(kNeighbours));
+    std::vector<Real> distance2(NearBuffer::SizeFor(kSpacingNeighbours));
     std::vector<std::uint32_t> index(distance2.size());
     NearestQuery query;
-    query.k = kNeighbours;
+    query.k = kSpacingNeighbours;
     for (std::int64_t run = chunk * kChunk;
          run < std::min<std::int64_t>(runs, (chunk + 1) * kChunk); ++run) {
       const std::uint32_t point = std::min(std::uint32_t(run) * kRun + kRun / 2, view.count - 1);
@@ -96,7 +95,7 @@ std::vector<Real> MeasureSpacing2(PointTreeView view, ThreadPool& threads) {
                     ->Position(point % kBlockPoints);
       const NearPoints near = FastestNearestSearch().nearest(view, query, {distance2, index});
       const Real farthest2 = near.size() == 0 ? 0 : near.distance2[near.farthest];
-      measured2[run] = std::max(farthest2 / kNeighbours, least2);
+      measured2[run] = std::max(farthest2 / kSpacingNeighbours, least2);
     }
   });
   return measured2;

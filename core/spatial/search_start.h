@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // EntryGrid and MeasureSpacing2 choose how searches begin: the block to scan first, and the
-// first radius to try. They affect the time of a search only, never its result. Density estimates
-// may use the spacing as well.
+// first radius to try. They affect the time of a search only, never its result. But density
+// estimates use the spacing as well, so pictures depend on MeasureSpacing2.
 #pragma once
 
 #include <algorithm>
@@ -47,5 +47,7 @@ class EntryGrid {
 // the run's middle point that is expected to contain one point. The spacing2 of the view is
 // ignored.
 std::vector<Real> MeasureSpacing2(PointTreeView view, ThreadPool& threads);
+// It looks at this number of points around the middle one. Fewer points show no spacing.
+constexpr std::uint32_t kSpacingNeighbours = 32;
 
 }  // namespace exphoton

@@ -22,9 +22,8 @@ namespace {
 constexpr std::array kListedMaps{PhotonKind::Indirect, PhotonKind::Direct, PhotonKind::Caustic};
 
 // Returns the share of the stored photons that become radiance photons. A disk of a smaller area
-// keeps its number of radiance photons, because their density estimates are unbiased only if the
-// nearest radiance photon lies well within the disk (docs/theory/exphotonmap.md, section 4). If
-// there are not enough photons, gather rays use density estimates instead.
+// keeps its number of radiance photons, so that most hits find one within its reach. If there are
+// not enough photons, gather rays use density estimates instead.
 Real FractionForDisks(Real fraction, double diskArea) {
   const double wanted = double(fraction) / diskArea;
   return wanted <= 1 ? Real(wanted) : Real(0);

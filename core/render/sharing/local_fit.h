@@ -62,7 +62,7 @@ struct FitNeighbours {
   std::vector<std::size_t> first;   // fragment of each run
   std::vector<std::size_t> tilted;  // runs
   std::size_t runs = 0, tiltedRuns = 0;
-  std::vector<FragmentRows::Range> ranges;  // scratch memory of LocalFit::Collect
+  std::vector<FragmentRows::Range> ranges;  // scratch memory of collecting
 };
 
 // The sums of weight * feature_i * feature_j for i <= j, and of weight * feature_i * light.

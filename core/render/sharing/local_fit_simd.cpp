@@ -19,19 +19,26 @@ namespace {
 
 using Real8 = Reals<8>;
 
-// Adds neighbouring lanes, then neighbouring pairs, and then both halves.
-HWY_INLINE Real SumOf(const Real8& values) {
-  static_assert(Real8::kLanes == 4 || Real8::kLanes == 8);
-  Real8::Register fours[Real8::kRegisters];
-  for (int i = 0; i < Real8::kRegisters; ++i) {
-    const auto pairs = hn::Add(values.part[i], hn::Shuffle2301(values.part[i]));
-    fours[i] = hn::Add(pairs, hn::Shuffle1032(pairs));
-  }
-  if constexpr (Real8::kLanes == 4) {
-    return hn::GetLane(fours[0]) + hn::GetLane(fours[1]);
+// Adds neighbouring lanes, then neighbouring pairs, and then both halves. A template, so that no
+// instructions for floats are compiled where Reals are doubles.
+template <class Reals8>
+HWY_INLINE Real SumOf(const Reals8& values) {
+  if constexpr (sizeof(Real) > sizeof(float)) {
+    Real lanes[8];
+    values.StoreUnaligned(lanes);
+    return ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) +
+           ((lanes[4] + lanes[5]) + (lanes[6] + lanes[7]));
   } else {
-    const hn::Half<Real8::Tag> half;
-    return hn::GetLane(fours[0]) + hn::GetLane(hn::UpperHalf(half, fours[0]));
+    typename Reals8::Register fours[Reals8::kRegisters];
+    for (int i = 0; i < Reals8::kRegisters; ++i) {
+      const auto pairs = hn::Add(values.part[i], hn::Shuffle2301(values.part[i]));
+      fours[i] = hn::Add(pairs, hn::Shuffle1032(pairs));
+    }
+    if constexpr (Reals8::kRegisters == 2)
+      return hn::GetLane(fours[0]) + hn::GetLane(fours[1]);
+    else
+      return hn::GetLane(fours[0]) +
+             hn::GetLane(hn::UpperHalf(hn::Half<typename Reals8::Tag>(), fours[0]));
   }
 }
 

@@ -39,17 +39,20 @@ double MeanOverlap(double inDisk, double inReach) {
 }  // namespace
 
 OwnPhotonWeight::OwnPhotonWeight(double share, double photonsInReach) : share_(share) {
-  for (std::size_t i = 0; i <= kSteps; ++i) {
-    const double step = double(i) / double(kSteps);
-    weights_[i] = MeanOverlap(step * step * kMostInDisk, share * photonsInReach);
+  perPhoton_[0] = .5;  // half of a small disk lies in the circle
+  for (std::size_t i = 1; i <= kSteps; ++i) {
+    const double step = double(i) / double(kSteps), inDisk = step * step * kMostInDisk;
+    perPhoton_[i] = MeanOverlap(inDisk, share * photonsInReach) / inDisk;
   }
 }
 
 double OwnPhotonWeight::In(double photonsInDisk) const {
-  const double inDisk = std::min(share_ * photonsInDisk, kMostInDisk);
-  const double at = std::sqrt(std::max(inDisk, 0.) / kMostInDisk) * double(kSteps);
+  if (!(share_ > 0)) return 1;
+  const double inDisk = std::clamp(share_ * photonsInDisk, 0., kMostInDisk);
+  const double at = std::sqrt(inDisk / kMostInDisk) * double(kSteps);
   const std::size_t i = std::min(std::size_t(at), kSteps - 1);
-  return weights_[i] + (at - double(i)) * (weights_[i + 1] - weights_[i]);
+  const double perPhoton = perPhoton_[i] + (at - double(i)) * (perPhoton_[i + 1] - perPhoton_[i]);
+  return std::min(inDisk * perPhoton, 1.);
 }
 
 }  // namespace exphoton

@@ -63,27 +63,33 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
 PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena) const {
   const Arena::Mark mark = arena->GetMark();
   const PhotonNeighbourhood around = Find(query, arena);
-  const Real spacings = Real(kOwnDisk * query.k * query.diskArea),
-             largest2 = Square(query.maxDistance) * Real(query.diskArea);
-  // Photons in a disk whose squared radius is 1.
-  const double density = double(around.photons.size()) / double(around.radius2) * query.diskArea;
-  Spectrum positive, negative;  // of the photons with either sign
+  const Real spacings = Real(kOwnDisk * query.k * query.diskArea);
+  Irradiance found;
+  Real largest2 = 0;
   for (std::size_t at = 0; at < around.photons.size(); ++at) {
     const std::uint32_t i = around.photons[at];
     const Real distance2 = around.distance2[at],
-               disk2 = std::clamp(spacing2_[i / PointTreeView::kSpacingPoints] * spacings,
-                                  SmallestRadius2(), largest2);
+               disk2 = std::min(OwnDisk2(i, spacings), around.radius2);
     if (distance2 > disk2) continue;
-    const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1),
-               weight = distance2 > 0 || !query.ownWeight
-                            ? Real(1)
-                            : Real(query.ownWeight->In(density * double(disk2)));
-    (Sign(i) > 0 ? positive : negative) += Alpha(i) * (weight * coat / disk2);
+    largest2 = std::max(largest2, disk2);
+    const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1);
+    const Spectrum part = Alpha(i) * (coat * kInvPi / (Real(paths_) * disk2));
+    const bool isOwn = !(distance2 > 0);
+    (isOwn ? found.own : found.e) += part;
+    (isOwn ? found.signedOwn : found.signedE) += part * Sign(i);
+    if (isOwn) found.ownDisk2 = double(disk2);
   }
   arena->Rewind(mark);
-  if (around.photons.empty()) return {{}, {}, std::sqrt(around.radius2)};
-  const Real scale = kInvPi / Real(paths_);
-  return {(positive + negative) * scale, (positive - negative) * scale, std::sqrt(around.radius2)};
+  const Real radius2 = around.radius2, ofDisks2 = largest2 / Real(kOwnDisk);
+  found.density = double(around.photons.size()) / double(radius2) * query.diskArea;
+  found.radius = std::sqrt(largest2 > 0 ? std::min(radius2, ofDisks2) : radius2);
+  return found;
+}
+
+// Few photons, or photons that coincide, show no spacing.
+Real PhotonMap::OwnDisk2(std::uint32_t i, Real spacings) const {
+  if (Size() < kSpacingNeighbours) return std::numeric_limits<Real>::infinity();
+  return std::max(spacing2_[i / PointTreeView::kSpacingPoints] * spacings, SmallestRadius2());
 }
 
 NearPoints PhotonMap::Nearest(const Point3& p, int k, Arena* arena) const {

@@ -11,7 +11,6 @@
 
 #include "core/base/arena.h"
 #include "core/spatial/nearest_search.h"
-#include "integrators/photon/maps/own_photon_weight.h"
 #include "integrators/photon/maps/photon.h"
 
 namespace exphoton {
@@ -28,8 +27,6 @@ struct PhotonQuery {
   // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
   double diskArea = 1;  // of the disk, relative to the one that k and maxDistance give; in (0,1]
-  // For irradiance: the weight of a photon at p itself; null: 1.
-  const OwnPhotonWeight* ownWeight = nullptr;
 };
 
 // PhotonNeighbourhood holds the photons of one density estimate. If k photons are found, the k-th
@@ -85,18 +82,21 @@ class PhotonMap {
   // coincide, all of them count and the radius is the rounding error of positions.
   PhotonNeighbourhood Find(const PhotonQuery& query, Arena* arena) const;
 
-  // The disk of a single photon holds about this part of k photons.
+  // The disk of a single photon is the one that is expected to hold kOwnDisk * k photons.
   static constexpr double kOwnDisk = .6;
 
   // Estimates the irradiance on the side of n, sum(alpha_i / (pi r_i^2)) / N over the k nearest
-  // photons whose own disk of radius r_i, at most maxDistance, reaches p. A disk of the photon's
-  // surroundings keeps dense light together, where the k nearest photons of a dark point would
-  // spread it (docs/decisions/0108-disks-of-photons.md). Returns the radius of Find too, and the
-  // estimate in which each photon has its sign.
+  // photons whose own disk of radius r_i reaches p. A disk follows from the photon's surroundings,
+  // and is at most the disk of Find. It keeps dense light together, where the disk of a dark point
+  // would spread it (docs/decisions/0108-disks-of-photons.md).
   struct Irradiance {
-    Spectrum e;
-    Spectrum signedE;
-    Real radius = 0;
+    Spectrum e;        // without photons at p itself
+    Spectrum signedE;  // the same, in which each photon has its sign
+    Spectrum own;      // of photons at p itself
+    Spectrum signedOwn;
+    double ownDisk2 = 0;  // squared radius of their disks
+    double density = 0;   // photons in a disk whose squared radius is 1
+    Real radius = 0;      // of Find, at most the one of k photons as dense as in the largest disk
   };
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena) const;
 
@@ -116,12 +116,15 @@ class PhotonMap {
     return view;
   }
 
+  // Returns the squared radius of the disk that holds this many photons, in multiples of the
+  // spacing, or infinity if it is not known.
+  Real OwnDisk2(std::uint32_t i, Real spacings) const;
   Real SmallestRadius2() const {
     return std::max(Square(minRadius_), std::numeric_limits<Real>::min());
   }
 
   PointTree<PhotonBlock> tree_;
-  std::vector<Real> spacing2_;  // MeasureSpacing2
+  std::vector<Real> spacing2_;  // local squared spacing; speeds up searches, and makes own disks
   std::int64_t paths_ = 0;
   bool isGuided_ = false;
   Real farthest_ = 0;

@@ -26,7 +26,8 @@ Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
   return sceneRadius * (photons < std::size_t(nUsed) ? Real(.01) : Real(1e-6));
 }
 
-// Smaller disks have as many radiance photons, because their share grows.
+// Returns the weight of the photon at a radiance photon. A smaller disk area leaves as many
+// radiance photons in a disk, because their share grows.
 OwnPhotonWeight WeightOfOwnPhoton(const PhotonSettings& settings, double diskArea) {
   const double share = double(settings.radianceFraction) / diskArea;
   const double inReach = settings.nUsed * double(Square(settings.radianceReach)) * diskArea;
@@ -173,18 +174,25 @@ double PhotonMapSet::PhotonDensity(const ShadingPoint& point, Arena* arena) cons
   return density;
 }
 
-PhotonMap::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const Normal3& n,
-                                                       Arena* arena, bool isCoated) const {
-  PhotonMap::Irradiance total;
-  Real weight = 0, weightedRadius = 0;
+PhotonMapSet::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const Normal3& n,
+                                                          Arena* arena, bool isCoated) const {
+  std::array<PhotonMap::Irradiance, kPhotonKindCount> parts;
+  double density = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
-    const auto part = maps_[m].EstimateIrradiance(
-        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, &ownWeight_}, arena);
-    total.e += part.e;
-    total.signedE += part.signedE;
-    weight += part.e.Y();
-    weightedRadius += part.e.Y() * part.radius;
+    parts[m] =
+        maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated, diskArea_}, arena);
+    density += parts[m].density;
+  }
+  Irradiance total;
+  Real weight = 0, weightedRadius = 0;
+  for (const PhotonMap::Irradiance& part : parts) {
+    const Real own = Real(ownWeight_.In(density * part.ownDisk2));
+    const Spectrum e = part.e + part.own * own;
+    total.e += e;
+    total.signedE += part.signedE + part.signedOwn * own;
+    weight += e.Y();
+    weightedRadius += e.Y() * part.radius;
     total.radius = std::max(total.radius, part.radius);
   }
   if (weight > 0) total.radius = weightedRadius / weight;

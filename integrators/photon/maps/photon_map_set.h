@@ -9,6 +9,7 @@
 
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
+#include "integrators/photon/maps/own_photon_weight.h"
 #include "integrators/photon/maps/photon_map.h"
 #include "integrators/photon/photon_settings.h"
 #include "integrators/photon/shooting/photon_tracer.h"
@@ -56,11 +57,15 @@ class PhotonMapSet {
   // Returns the photons per unit area, of all three maps, that an estimate at the point would use.
   double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
 
-  // Returns the irradiance on the side of n, summed over all three maps. A photon at p itself
-  // counts as the one of a radiance photon does. The radius is the mean of the maps' radii,
-  // weighted by the luminance that each map contributed.
-  PhotonMap::Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena,
-                                           bool isCoated = false) const;
+  // Estimates the irradiance on the side of n, summed over all three maps. A photon at p itself
+  // counts with OwnPhotonWeight.
+  struct Irradiance {
+    Spectrum e;
+    Spectrum signedE;  // each photon has its sign
+    Real radius = 0;   // mean of the maps' radii, weighted by the luminance of each map
+  };
+  Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena,
+                                bool isCoated = false) const;
 
  private:
   // Part is the light that an estimate contains.
@@ -77,8 +82,8 @@ class PhotonMapSet {
   std::array<PhotonMap, kPhotonKindCount> maps_;
   std::array<Real, kPhotonKindCount> radii_{};
   int nUsed_ = 50;
-  OwnPhotonWeight ownWeight_;  // OwnPhotonWeight
-  double diskArea_ = 1;        // as in PreprocessContext
+  OwnPhotonWeight ownWeight_;
+  double diskArea_ = 1;  // as in PreprocessContext
   DensityKernel kernel_ = DensityKernel::Constant;
 };
 

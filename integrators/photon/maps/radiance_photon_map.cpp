@@ -22,7 +22,7 @@ void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Ar
                     std::span<RadianceRecord> entries) {
   if (entries.empty()) return;
   const Spectrum rho = site.reflectance * kInvPi, tau = site.transmittance * kInvPi;
-  using Irradiance = PhotonMap::Irradiance;
+  using Irradiance = PhotonMapSet::Irradiance;
   const auto entry = [&](const Normal3& n, Real radius, const Irradiance& on,
                          const Irradiance& behind) {
     const Spectrum value = rho * on.e + tau * behind.e;

@@ -121,7 +121,7 @@ TEST_F(PaneTest, SendsGatherRaysTheSameByDensityEstimates) {
 TEST_F(PaneTest, IsReadFromRadiancePhotonsOnlyBeyondShortRays) {
   Fill();
   const Real radius = Real(ReadFrom({0, 0, 2}, {0, 0, -1}, radianceMap_.get()).radius);
-  ASSERT_GT(radius, Real(.3));
+  ASSERT_GT(radius, Real(.25));
   for (const Real shortRays : {Real(.3), Real(.5), Real(2)}) {
     settings_.shortRays = shortRays;
     const Real limit = shortRays * radius;

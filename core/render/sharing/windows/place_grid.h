@@ -22,7 +22,9 @@ struct PlaceSpot {
 template <class Place>
 class PlaceGrid {
  public:
-  explicit PlaceGrid(const GatherFragments& gathers) : rows_(gathers, 4) {
+  static constexpr int kStride = 4;  // pixels
+
+  explicit PlaceGrid(const GatherFragments& gathers) : rows_(gathers, kStride) {
     places_.reserve(rows_.Count());
     rows_.ForPixels([&](Point2i pixel) {
       const auto& fragments = gathers.At(pixel).fragments;
@@ -50,7 +52,7 @@ class PlaceGrid {
   bool HoldsAround(Point2i pixel, int reach, const Condition& condition) const {
     bool holds = true;
     rows_.ForRowsAround(pixel, reach, [&](const FragmentRows::Range& range) {
-      for (std::size_t i = range.begin; i < range.end; ++i) holds = holds && condition(places_[i]);
+      for (std::size_t i = range.begin; holds && i < range.end; ++i) holds = condition(places_[i]);
     });
     return holds;
   }

@@ -95,6 +95,7 @@ SharingShares::SharingShares(const FragmentFits::Source& source, const FragmentF
 
 Real SharingShares::At(Point2i pixel, const FitTarget& target, FitNeighbours* scratch) const {
   constexpr int kReachOfShare = int(kShareRadius);
+  static_assert(Real(kReachOfShare) == kShareRadius);
   if (grid_.HoldsAround(pixel, kReachOfShare, [](const Place& place) { return place.share == 1; }))
     return 1;
   Real shares = 0, total = 0;

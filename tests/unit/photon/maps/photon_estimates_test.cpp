@@ -185,7 +185,7 @@ TEST_F(PhotonEstimates, AreSumsOfKernelTimesScatteredPower) {
 
 // Returns the squared radius of the own disk of the photon at p. Runs of 64 photons in the order of
 // the map share a spacing, which 32 neighbours of the middle one show.
-double OwnDisk2(const PhotonMap& map, const Point3& p, int k, double maxDistance) {
+double OwnDisk2(const PhotonMap& map, const Point3& p, int k, double most2) {
   std::uint32_t at = 0;
   while (map.Position(at) != p) ++at;
   const auto middle = std::min(at / 64 * 64 + 32, std::uint32_t(map.Size()) - 1);
@@ -193,7 +193,7 @@ double OwnDisk2(const PhotonMap& map, const Point3& p, int k, double maxDistance
   for (std::uint32_t i = 0; i < map.Size(); ++i)
     distances2.push_back(double(LengthSquared(map.Position(i) - map.Position(middle))));
   std::nth_element(distances2.begin(), distances2.begin() + 31, distances2.end());
-  return std::min(PhotonMap::kOwnDisk * k * distances2[31] / 32, maxDistance * maxDistance);
+  return std::min(PhotonMap::kOwnDisk * k * distances2[31] / 32, most2);
 }
 
 TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
@@ -207,10 +207,11 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
         double sum[3] = {}, weights = 0, radii = 0;
         for (std::size_t m = 0; m < 3; ++m) {
           const Estimate estimate(photons_[m], n, k, .7, true);
-          double part[3] = {};
+          double part[3] = {}, largest2 = 0;
           for (const auto& [photon, distance2] : estimate.photons) {
-            const double disk2 = OwnDisk2(maps.Map(PhotonKind(m)), photon.p, k, .7);
+            const double disk2 = OwnDisk2(maps.Map(PhotonKind(m)), photon.p, k, estimate.radius2);
             if (distance2 > disk2) continue;
+            largest2 = std::max(largest2, disk2);
             const double x = 1 - std::abs(double(photon.wi.z)) / 2;
             const double passed = isCoated ? (1 - std::pow(x, 5)) * 28 / 23 : 1;
             for (int c = 0; c < 3; ++c) part[c] += passed * double(photon.alpha[c]) / disk2;
@@ -221,7 +222,7 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
           }
           const double y = double(Spectrum(Real(part[0]), Real(part[1]), Real(part[2])).Y());
           weights += y;
-          radii += y * std::sqrt(estimate.radius2);
+          radii += y * std::sqrt(std::min(estimate.radius2, largest2 / PhotonMap::kOwnDisk));
         }
         const auto found = maps.EstimateIrradiance({0, 0, 0}, n, &arena_, isCoated);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(found.e[c]), sum[c], 3e-3 * sum[c]);

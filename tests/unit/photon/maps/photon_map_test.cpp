@@ -59,8 +59,8 @@ TEST(PhotonMap, OfCoincidentPhotonsStaysFinite) {
   std::vector<Photon> photons(100, Photon{{1, 2, 3}, {0, 0, 1}, Spectrum(1)});
   const PhotonMap map = MapOf(photons, 10);
   const auto e = map.EstimateIrradiance({{1, 2, 3}, {0, 0, 1}, 50, 1, true}, &arena);
-  EXPECT_TRUE(e.e.IsFinite());
-  EXPECT_GT(e.e.r, 0);
+  EXPECT_TRUE(e.own.IsFinite());
+  EXPECT_GT(e.own.r, 0);
   // Four rounding errors of the largest coordinate.
   EXPECT_NEAR(double(e.radius / (12 * kMachineEpsilon)), 1, 1e-4);
   EXPECT_NEAR(double(map.TypicalRadius(10, &arena) / (12 * kMachineEpsilon)), 1, 1e-4);
