@@ -110,6 +110,9 @@ TEST(PhotonDisks, OfFewPhotonsHaveTheLargestRadius) {
   EXPECT_NEAR(double(at(Real(2.5)).e.g * kPi * 4), 1, 1e-5);
   EXPECT_NEAR(double(at(9).own.g * kPi * 4), 1, 1e-5);
   EXPECT_EQ(at(9).radius, 2);
+  const PhotonMap single(PhotonBuffer(std::vector<Photon>{photons.front()}, 1), threads);
+  const auto e = single.EstimateIrradiance({{0, 0, 0}, {0, 0, 1}, kNearest, 2, true}, &arena);
+  EXPECT_NEAR(double(e.own.g * kPi * 4), 1, 1e-5);
 }
 
 // One photon in eight has a radiance photon. Points read the nearest one.
