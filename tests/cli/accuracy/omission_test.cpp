@@ -77,10 +77,13 @@ TEST_F(OmissionTest, KeepsWhatTheUserNames) {
 // An effect with more light than a tenth of the accuracy needs no pairs of renders.
 TEST_F(OmissionTest, TriesNoEffectThatBringsMuchLight) {
   const std::string accurate = Render({"--accuracy", "2.5%", "--verbose"});
-  // A pilot shows about a fifth of the light.
-  EXPECT_TRUE(Has(accurate, "indirect stays on: 2") || Has(accurate, "indirect stays on: 1"))
-      << accurate;
-  EXPECT_TRUE(Has(accurate, " % of the light of a pilot")) << accurate;
+  // A pilot shows about a fifth of the light, and its photons are noisy.
+  bool isFifth = false;
+  for (int percent = 17; percent <= 23; ++percent)
+    isFifth = isFifth || Has(accurate, ("indirect stays on: " + std::to_string(percent) +
+                                        " % of the light of a pilot")
+                                           .c_str());
+  EXPECT_TRUE(isFifth) << accurate;
   EXPECT_TRUE(Has(accurate, "caustics off")) << accurate;
   EXPECT_FALSE(Has(accurate, "specular stays on")) << accurate;
   EXPECT_TRUE(Statistics().at("effects").at("indirect").at("on"));
