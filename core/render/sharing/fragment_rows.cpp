@@ -2,9 +2,12 @@
 // FragmentRows: copies the fragments of each pixel into columns.
 #include "core/render/sharing/fragment_rows.h"
 
+#include <bit>
+
 namespace exphoton {
 
-FragmentRows::FragmentRows(const GatherFragments& gathers, int stride) : stride_(stride) {
+FragmentRows::FragmentRows(const GatherFragments& gathers, int stride)
+    : shift_(std::countr_zero(unsigned(stride))) {
   const PixelBounds& bounds = gathers.Bounds();
   grid_ = {CeilDivide(bounds.x0), CeilDivide(bounds.y0), CeilDivide(bounds.x1),
            CeilDivide(bounds.y1)};

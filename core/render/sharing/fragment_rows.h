@@ -38,7 +38,7 @@ class FragmentRows {
   static Column OfGroup(int group) { return Column(Group0 + 4 * group); }
 
   // Takes the pixels of a grid: every `stride`-th one along both axes, counted from pixel 0,0, so
-  // that the grid does not depend on a crop window.
+  // that the grid does not depend on a crop window. The stride is a power of 2.
   explicit FragmentRows(const GatherFragments& gathers, int stride = 1);
 
   const Real* At(Column column) const { return columns_[std::size_t(column)].data(); }
@@ -65,17 +65,17 @@ class FragmentRows {
   template <class Use>
   void ForPixels(const Use& use) const {
     for (int y = grid_.y0; y < grid_.y1; ++y)
-      for (int x = grid_.x0; x < grid_.x1; ++x) use(Point2i{x * stride_, y * stride_});
+      for (int x = grid_.x0; x < grid_.x1; ++x) use(Point2i{x << shift_, y << shift_});
   }
 
  private:
-  int FloorDivide(int a) const { return a >= 0 ? a / stride_ : -((stride_ - 1 - a) / stride_); }
+  int FloorDivide(int a) const { return a >> shift_; }
   int CeilDivide(int a) const { return -FloorDivide(-a); }
   std::size_t IndexOf(Point2i inGrid) const {
     return std::size_t(inGrid.y - grid_.y0) * std::size_t(grid_.Width()) +
            std::size_t(inGrid.x - grid_.x0);
   }
-  int stride_;
+  int shift_;                       // log2 of the stride
   PixelBounds grid_;                // in strides
   std::vector<std::size_t> first_;  // by pixel of the grid; one more at the end
   std::array<std::vector<Real>, kColumns> columns_;
