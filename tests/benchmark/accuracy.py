@@ -9,13 +9,13 @@ samples, such as 256spp. The grid has path, guidedpath and exphotonmap, the latt
 rays of the scene and with 16, and 1 to 4096 samples a pixel. A setting ends where a render would
 take more than MOST_SECONDS, where another setting is cheaper, or where the error is below half of
 the smallest accuracy. Each setting has two seeds: the mean of their relMSE and the smaller time.
-"Best" is the CPU time of the cheapest setting for the mean error that the dial reached,
-interpolated in the grid. "Times best" is the ratio of both. Where a picture takes more than 3
+"Best" is the CPU time of the cheapest setting in the grid for the error that the dial reached,
+interpolated between two numbers of samples. They are rendered beside each picture of the dial,
+because machines are noisy. "Times best" is the ratio of both times. Where a picture takes more than 3
 MOST_SECONDS by the clock, the accuracy is out of reach. Accuracies where the noise of the reference
 exceeds a fifth of the squared error are left out. The folder of
 --cache keeps references and grids for later runs. Another reference or size has other files there.
-The seconds of a grid are comparable only with runs on the same machine under the same load, so
-delete two-grids-*.json there where this has changed.
+The seconds of a grid choose the cheapest setting and are not printed.
 """
 import argparse
 import json
@@ -44,17 +44,16 @@ def grid_of(scene, most_seconds, least_error):
             return json.load(file)
     grid = {}
     limit = most_seconds
-    for name, options in SETTINGS.items():
+    for name in SETTINGS:
         points = []
         for octave in range(0, 13):
             errors, times = [], []
-            for seed in ("500", "501"):
-                picture, cpu = scene.render("grid", "--integrator", name.split()[0], "--spp",
-                                            str(2 ** octave), "--seed", seed, *THREAD, *options)
+            for seed in (500, 501):
+                picture, cpu = render_of_grid(scene, name, octave, seed)
                 errors.append(scene.error(picture))
                 times.append(cpu)
             cpu = min(times)
-            points.append((max(sum(errors) / len(errors), 1e-12), cpu))
+            points.append((max(mean(errors), 1e-12), cpu))
             reaches = 1e-12 < points[-1][0] < least_error ** 2
             if reaches or cpu > limit or 2 * cpu > most_seconds:
                 limit = min(limit, cpu) if reaches else limit
@@ -65,26 +64,44 @@ def grid_of(scene, most_seconds, least_error):
     return grid
 
 
-def seconds_for(points, rel_mse, least_error):
-    """Interpolates log seconds over log relMSE. Where a setting ended at the least error, seconds
+def mean(values):
+    return sum(values) / len(values)
+
+
+def render_of_grid(scene, name, octave, seed):
+    """Returns the file and the CPU seconds of a render of a setting with 2^octave samples a pixel."""
+    return scene.render("grid", "--integrator", name.split()[0], "--spp", str(2 ** octave), "--seed",
+                        str(seed), *THREAD, *SETTINGS[name])
+
+
+def place_of(points, rel_mse, least_error):
+    """Returns where a setting has this error: its octave, the part of the way to the next one by
+    log relMSE, and a factor on the seconds. Where a setting ended at the least error, seconds
     beyond it grow as without bias. None beyond the last point of other settings."""
-    for (error, cpu), (next_error, next_cpu) in zip(points, points[1:]):
+    for octave, ((error, _), (next_error, _)) in enumerate(zip(points, points[1:])):
         if next_error <= rel_mse:
             if error <= rel_mse:
-                return cpu
-            t = math.log(error / rel_mse) / math.log(error / next_error)
-            return cpu * (next_cpu / cpu) ** t
-    error, cpu = points[-1]
-    return cpu * error / rel_mse if error < least_error ** 2 else None
+                return octave, 0, 1
+            return octave, math.log(error / rel_mse) / math.log(error / next_error), 1
+    error = points[-1][0]
+    return (len(points) - 1, 0, max(error / rel_mse, 1)) if error < least_error ** 2 else None
+
+
+def seconds_at(place, seconds_of):
+    """Interpolates log seconds. `seconds_of` returns those of an octave."""
+    octave, part, factor = place
+    cpu = seconds_of(octave)
+    return factor * (cpu * (seconds_of(octave + 1) / cpu) ** part if part > 0 else cpu)
 
 
 def best_of(grid, rel_mse, least_error):
-    times = {name: seconds_for(points, rel_mse, least_error) for name, points in grid.items()}
-    times = {name: time for name, time in times.items() if time is not None}
-    if not times:
-        return None, None
-    name = min(times, key=times.get)
-    return name, times[name]
+    """Returns the name and the place of the cheapest setting for an error; None: there is none."""
+    found = []
+    for name, points in grid.items():
+        place = place_of(points, rel_mse, least_error)
+        if place:
+            found.append((seconds_at(place, lambda octave: points[octave][1]), name, place))
+    return min(found)[1:] if found else None
 
 
 def arguments():
@@ -127,7 +144,7 @@ class Table:
                     self.add_row(label, scene, grid, percent / 100)
 
     def add_row(self, label, scene, grid, accuracy):
-        errors, times, pilots, chosen = [], [], [], set()
+        errors, times, pilots, chosen, best = [], [], [], set(), []
         report = os.path.join(scene.folder, "report.json")
         for seed in range(1, self.given.seeds + 1):
             try:
@@ -145,17 +162,30 @@ class Table:
             pilots += [phase["cpuSeconds"] for phase in statistics["phases"]
                        if phase["name"] == "pilots"]
             chosen.add(statistics["integrator"])
+            best.append(self.best_beside(scene, grid, errors[-1], seed))
         hits = self.count_promises(errors, accuracy)
-        name, best = best_of(grid, sum(error ** 2 for error in errors) / len(errors),
-                             self.least_error)
-        time = sum(times) / len(times)
-        if best:
-            self.ratios.append(time / best)
+        time = mean(times)
         print(label, f"{', '.join(sorted(chosen))} | "
               f"{', '.join(f'{100 * error:.2g}' for error in errors)} % | "
-              f"{hits} of {len(errors)} | {time:.3g} ({sum(pilots) / len(pilots):.2g}) | "
-              + (f"{name}, {best:.3g} | {time / best:.2f} |" if best else "not in the grid | |"),
-              flush=True)
+              f"{hits} of {len(errors)} | {time:.3g} ({mean(pilots):.2g}) | "
+              + self.text_of_best(best, time), flush=True)
+
+    def best_beside(self, scene, grid, error, seed):
+        """Renders with the cheapest setting for an error, beside the picture that has this error.
+        Returns the name of the setting and its seconds; None: no setting has this error."""
+        found = best_of(grid, max(error, 1e-6) ** 2, self.least_error)
+        if not found:
+            return None
+        name, place = found
+        return name, seconds_at(place, lambda octave: render_of_grid(scene, name, octave, seed)[1])
+
+    def text_of_best(self, best, time):
+        if None in best:
+            return "not in the grid | |"
+        names = ", ".join(sorted({name for name, _ in best}))
+        seconds = mean([seconds for _, seconds in best])
+        self.ratios.append(time / seconds)
+        return f"{names}, {seconds:.3g} | {time / seconds:.2f} |"
 
     def count_promises(self, errors, accuracy):
         """Returns how many of the errors keep the promise."""
@@ -166,9 +196,10 @@ class Table:
         return hits
 
     def print_sums(self):
+        geometric = math.exp(mean([math.log(ratio) for ratio in self.ratios] or [0]))
         print(f"{self.kept} of {self.count} promises kept; {self.thrifty} errors above half of the "
               f"accuracy; times {', '.join(f'{ratio:.2g}' for ratio in sorted(self.ratios))} times "
-              "the best")
+              f"the best, geometric mean {geometric:.3g}")
 
 
 def main():
