@@ -105,6 +105,9 @@ struct RenderResult {
 
 RenderResult Render(const RenderJob& job, const RenderOptions& options);
 
+// Returns the number of samples a pixel for whose footprint textures are filtered.
+std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options);
+
 // One pass over the image: the range of samples of each pixel, and their seeds.
 struct RenderPass {
   std::uint64_t preprocessSeed =

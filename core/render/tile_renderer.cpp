@@ -16,11 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options) {
-  if (options.footprintSamples > 0) return options.footprintSamples;
-  return std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1);
-}
-
 // Scales the ray differentials from the pixel spacing to the mean spacing of a pixel's samples.
 void ScaleDifferentials(RayDifferential* ray, Real scale) {
   ray->xOrigin = ray->o + (ray->xOrigin - ray->o) * scale;
@@ -388,6 +383,11 @@ void TileRenderer::Drop(const Spectrum& L, const SampleKey& key, RenderWorker* w
   if (options_.isStrict) throw Error(ExitStatus::Internal, "non-finite " + text);
   ++worker->totals.nonFinite;
   log_->Add(key.pixel, key.index, text);
+}
+
+std::int64_t FootprintSamples(const RenderJob& job, const RenderOptions& options) {
+  if (options.footprintSamples > 0) return options.footprintSamples;
+  return std::max<std::int64_t>(job.sampler.SamplesPerPixel(), 1);
 }
 
 }  // namespace exphoton

@@ -197,7 +197,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = ElapsedSince(start);
-  run.certificate = CertificateOf(films, result, setup);
+  run.certificate = CertificateOf(films, result, setup, FootprintSamples(job, options));
   TakeResult(result, &run);
   const Picture picture =
       Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);

@@ -107,7 +107,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 }
 
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
-                                         const RenderSetup& setup) {
+                                         const RenderSetup& setup, std::int64_t footprintSamples) {
   if (!films.corrections || !result.noise) return std::nullopt;
   std::optional<Certificate> certificate = Certify(*films.corrections, result.levels, *result.noise,
                                                    CertificateGoal::ForNoise(*result.noise));
@@ -115,6 +115,10 @@ std::optional<Certificate> CertificateOf(const PictureFilms& films, const Passes
   certificate->sharing = result.render.sharingBias;
   if (const auto limits = setup.integrator->Certification(*setup.scene))
     certificate->notCovered = limits->notCovered;
+  if (setup.scene->Features().Needs(Feature::Filtering))
+    certificate->notCovered.push_back("the blur of textures and bumps, which are filtered for " +
+                                      std::to_string(footprintSamples) +
+                                      " samples a pixel (--footprint-spp)");
   return certificate;
 }
 

@@ -34,9 +34,9 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 
 // Returns the certificate of a picture. A picture that was stopped has the complete passes, and so
 // has its certificate. Returns nullopt if the command asks for none, or if fewer than two groups of
-// passes are complete.
+// passes are complete. `footprintSamples` is FootprintSamples of the render.
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
-                                         const RenderSetup& setup);
+                                         const RenderSetup& setup, std::int64_t footprintSamples);
 
 // Prints the certificate, or that there is none.
 void ReportCertificate(const std::optional<Certificate>& certificate, Log& log);

@@ -13,10 +13,11 @@ namespace {
 constexpr int kCertifiedSide = 16;
 
 // Returns the certificate of a picture with this number of complete passes.
-std::optional<Certificate> CertificateAfter(int passes, bool isComplete) {
+std::optional<Certificate> CertificateAfter(int passes, bool isComplete,
+                                            const std::string& material = "\"matte\"") {
   const LoadedScene scene = LoadSceneText(
       TestHeader("\"photonmap\" \"integer causticphotons\" 0", kCertifiedSide, kCertifiedSide, 1) +
-      FurnaceWorld(1, "\"matte\""));
+      FurnaceWorld(1, material));
   RenderCommand command;
   command.certifies = true;
   PictureFilms films(command, *scene.setup);
@@ -31,7 +32,7 @@ std::optional<Certificate> CertificateAfter(int passes, bool isComplete) {
     result.noise = .01;
     result.levels.assign(std::size_t(3 * kCertifiedSide * kCertifiedSide), 1);
   }
-  return CertificateOf(films, result, *scene.setup);
+  return CertificateOf(films, result, *scene.setup, 4);
 }
 
 // After Ctrl-C, the picture has the complete passes only.
@@ -42,6 +43,19 @@ TEST(CertificateOf, AStoppedPictureIsTheOneOfItsCompletePasses) {
   EXPECT_EQ(stopped->corrections, 2);
   EXPECT_EQ(stopped->bias.squared, complete->bias.squared);
   EXPECT_EQ(stopped->notCovered, complete->notCovered);
+}
+
+// A picture with few samples has flatter bumps, which no correction shows.
+TEST(CertificateOf, SaysThatTheBlurOfTexturesIsNotCovered) {
+  const auto plain = CertificateAfter(2, true);
+  const auto textured = CertificateAfter(
+      2, true,
+      "\"matte\" Texture \"t\" \"color\" \"checkerboard\" Material \"matte\" \"texture Kd\" \"t\"");
+  ASSERT_TRUE(plain && textured);
+  ASSERT_EQ(textured->notCovered.size(), plain->notCovered.size() + 1);
+  EXPECT_EQ(textured->notCovered.back(),
+            "the blur of textures and bumps, which are filtered for 4 samples a pixel "
+            "(--footprint-spp)");
 }
 
 TEST(ReportCertificate, SaysThatPassesAreMissing) {
