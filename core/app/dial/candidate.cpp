@@ -110,6 +110,15 @@ void Explorer::SettleLight() {
   Settle(kNoPrice);
 }
 
+void Explorer::LookAgain() {
+  Guarded([&] {
+    if (!isRough_ || hasLookedAgain_) return;
+    hasLookedAgain_ = true;
+    series_.RenderRoughLight();
+    TakeLight();
+  });
+}
+
 // Returns whether there is a rough pilot. If it is cut off, and the photons of the picture would
 // not cost more than `most`, it is rendered again with more paths.
 bool Explorer::RenderRough(double most) {

@@ -70,6 +70,9 @@ class Explorer {
   void Settle(double most);
   // Renders a pilot of full size to know the light, whatever it costs, also if there is no price.
   void SettleLight();
+  // Renders a rough pilot with more samples to know the light better, once.
+  void LookAgain();
+  bool HasLookedAgain() const { return hasLookedAgain_; }
   // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
   // Returns whether they were sought.
   bool FindOmissions(double most);
@@ -106,7 +109,7 @@ class Explorer {
   PilotRenderer* pilots_;
   PilotSeries series_;
   Wish wish_;
-  bool isRough_ = false;
+  bool isRough_ = false, hasLookedAgain_ = false;
   double gain_ = 1;          // divides the noise of the model
   double leastSamples_ = 0;  // that a picture which was given up needs
   Candidate candidate_;

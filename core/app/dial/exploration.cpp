@@ -11,6 +11,10 @@ constexpr double kNotableOmission = .005;  // root of relMSE
 // A rough pilot has a tenth of the photons and few pixels, so its light is known to about this. A
 // wrong suspicion only costs a pilot.
 constexpr LightTest kFarMore{.leastMissing = .1, .mostChance = .02};
+// So much light is suspicious even where noise may explain it: where few photons leave the
+// surroundings of a lamp, the noise of a small pilot is hardly known. A rough pilot with more
+// samples follows, which dilutes a single bright sample.
+constexpr LightTest kHalfMore{.leastMissing = 1. / 3, .mostChance = .5};
 // The same without a pilot of full size that would confirm it.
 constexpr LightTest kSurelyMore{.leastMissing = .2, .mostChance = 6.3e-5};
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
@@ -30,8 +34,11 @@ void DropDarkOnes(std::vector<Candidate>* candidates) {
   for (const Candidate& candidate : *candidates)
     if (!candidate.isRough && candidate.mean.light.mean > 0) means.push_back(candidate.mean);
   for (Candidate& candidate : *candidates)
-    if (HasWholeLight(candidate) && candidate.reason.empty() && !means.empty())
+    if (HasWholeLight(candidate) && candidate.reason.empty() && !means.empty()) {
       candidate.reason = MissingLight(candidate.mean, means);
+      if (candidate.reason.empty())
+        candidate.reason = MissingLight(candidate.mean, means, kFarMore);
+    }
 }
 
 // Returns the rays as in DialSettings. Sharing is the reason for more rays than the scene has.
@@ -118,22 +125,28 @@ std::vector<Explorer> BeginAll(PilotRenderer* pilots, const std::vector<std::str
   return explorers;
 }
 
-// Returns whether the rough pilot found far more light than the pilot of a candidate with a price.
-bool ShowsMoreLight(const Candidate& rough, const std::vector<Candidate>& others) {
+// Returns whether the rough pilot found more light than the pilot of a candidate with a price.
+bool ShowsMoreLight(const Candidate& rough, const std::vector<Candidate>& others,
+                    const LightTest& test) {
   if (!(rough.mean.light.mean > 0)) return false;
   return std::ranges::any_of(others, [&](const Candidate& other) {
     const PilotMean means[] = {other.mean, rough.mean};
     return HasWholeLight(other) && other.reason.empty() &&
-           !MissingLight(other.mean, means, kFarMore).empty();
+           !MissingLight(other.mean, means, test).empty();
   });
 }
 
 // A pilot of full size decides where a rough one finds far more light than another integrator,
 // which may then lack light, so that its price is wrong.
 void SettleBrightOnes(std::vector<Explorer>* explorers, const std::vector<Candidate>& others) {
-  for (Explorer& explorer : *explorers)
-    if (explorer.Result().isRough && ShowsMoreLight(explorer.Result(), others))
+  for (Explorer& explorer : *explorers) {
+    const auto showsMore = [&](const LightTest& test) {
+      return explorer.Result().isRough && ShowsMoreLight(explorer.Result(), others, test);
+    };
+    if (!showsMore(kFarMore) && showsMore(kHalfMore)) explorer.LookAgain();
+    if (showsMore(kFarMore) || (explorer.HasLookedAgain() && showsMore(kHalfMore)))
       explorer.SettleLight();
+  }
 }
 
 // Returns the results, without those that lack light. The cheapest one has a pilot of full size.
@@ -176,7 +189,7 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
   Explore(&explorers, kNoPrice);
   for (const Candidate& candidate : leftOut) {
     const std::vector<Candidate> others = SettleCheapest(&explorers);
-    if (!MayWin(candidate, others) && !ShowsMoreLight(candidate, others)) {
+    if (!MayWin(candidate, others) && !ShowsMoreLight(candidate, others, kFarMore)) {
       skipped.push_back(candidate);
       continue;
     }

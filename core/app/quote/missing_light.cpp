@@ -20,19 +20,28 @@ double FreedomOf(const MeanLight& a, const MeanLight& b) {
          (first * first / a.freedom + second * second / b.freedom);
 }
 
+// Returns whether the light of `other` shows that the mean lacks light.
+bool LacksLight(const MeanLight& mean, const MeanLight& other, const LightTest& test) {
+  const double missing = 1 - mean.mean / other.mean;
+  if (!(missing > test.leastMissing)) return false;
+  const double noise = std::hypot(mean.relativeError, other.relativeError);
+  const double freedom = FreedomOf(mean, other);
+  const double t = (missing - test.leastMissing) / noise;
+  return !(noise > 0) || StudentTail(t, std::min(freedom, kMostFreedom)) < test.mostChance;
+}
+
 }  // namespace
 
 std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all,
                          const LightTest& test) {
-  const PilotMean& brightest =
-      *std::ranges::max_element(all, {}, [](const PilotMean& pilot) { return pilot.light.mean; });
-  const double missing = 1 - mean.light.mean / brightest.light.mean;
-  if (!(missing > test.leastMissing)) return "";
-  const double noise = std::hypot(mean.light.relativeError, brightest.light.relativeError);
-  const double freedom = FreedomOf(mean.light, brightest.light);
-  const double t = (missing - test.leastMissing) / noise;
-  if (noise > 0 && !(StudentTail(t, std::min(freedom, kMostFreedom)) < test.mostChance)) return "";
-  return Format("finds %.3g %% less light than ", 100 * missing) + brightest.integrator;
+  const PilotMean* brightest = nullptr;
+  for (const PilotMean& other : all)
+    if ((!brightest || other.light.mean > brightest->light.mean) &&
+        LacksLight(mean.light, other.light, test))
+      brightest = &other;
+  if (!brightest) return "";
+  const double missing = 1 - mean.light.mean / brightest->light.mean;
+  return Format("finds %.3g %% less light than ", 100 * missing) + brightest->integrator;
 }
 
 }  // namespace exphoton::cli

@@ -22,8 +22,8 @@ struct LightTest {
   double mostChance = 6.3e-5;
 };
 
-// Returns a phrase if the mean lies below the largest one by more than the test allows and noise
-// explains; otherwise "". `all` contains `mean`.
+// Returns a phrase if the mean lies below another one by more than the test allows and noise
+// explains; otherwise "". A brighter mean with much noise does not hide one with less.
 std::string MissingLight(const PilotMean& mean, std::span<const PilotMean> all,
                          const LightTest& test = {});
 

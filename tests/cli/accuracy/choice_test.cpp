@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests order an accuracy for scenes in which paths from the camera miss much light. A wall
-// sees a bright light only in a mirror behind the camera, because a screen is between them.
+// sees a bright light only in a mirror behind the camera, because a screen is between them. Or a
+// tiny lamp hangs in a cup, so that most of its light reaches the room over the cup's inside.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -103,6 +104,38 @@ TEST_F(ChoiceTest, IsMadeAgainWhereAPictureIsFarNoisierThanItsPilots) {
   // The pilots of both choices count: two of path, and at least three of photons.
   const nlohmann::json statistics = nlohmann::json::parse(Read("lamp.json"));
   EXPECT_GE(statistics["accuracy"]["pilots"]["renders"].get<int>(), 5);
+}
+
+// Returns a closed room with a tiny lamp in a cup.
+std::string RoomWithACup() {
+  return "LookAt 0 0 4.5 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 50\n"
+         "Film \"image\" \"integer xresolution\" 32 \"integer yresolution\" 24\n"
+         "PixelFilter \"box\" SurfaceIntegrator \"exphotonmap\"\nWorldBegin\n"
+         "Material \"matte\" \"color Kd\" [.6 .6 .6]\n"
+         "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3 4 6 5 4 7 6 0 5 1 0 4 5\n"
+         "3 2 6 3 6 7 0 3 7 0 7 4 1 5 6 1 6 2] \"point P\" [-2 -1.5 -2 2 -1.5 -2 2 1.5 -2 -2 1.5 "
+         "-2\n"
+         "-2 -1.5 5 2 -1.5 5 2 1.5 5 -2 1.5 5]\n"
+         "AttributeBegin Material \"matte\" \"color Kd\" [.8 .8 .8] Translate 0 .3 -1.8 Rotate -90 "
+         "1 0 0\n"
+         "Shape \"cylinder\" \"float radius\" .02 \"float zmin\" 0 \"float zmax\" .06\n"
+         "Shape \"disk\" \"float radius\" .02 AttributeEnd\n"
+         "AreaLightSource \"area\" \"color L\" [6000 6000 6000] Material \"matte\" \"color Kd\" [0 "
+         "0 0]\n"
+         "Translate 0 .324 -1.8 Shape \"sphere\" \"float radius\" .008\nWorldEnd\n";
+}
+
+// The pilot of path meets little light and little noise. The rough pilots are noisy.
+TEST_F(ChoiceTest, LeavesOutIntegratorsThatMissTheLightOfACup) {
+  Write("cup.pbrt", RoomWithACup());
+  for (const char* seed : {"1", "2", "3"}) {
+    const ProgramResult result =
+        Run({"cup.pbrt", "--accuracy", "20%", "--seed", seed, "-o", "cup.exr", "--no-progress"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    ExpectIn("accuracy 20%: integrator exphotonmap, ", result.err);
+    ExpectIn("path: finds ", result.err);
+    ExpectIn(" % less light than exphotonmap", result.err);
+  }
 }
 
 TEST_F(ChoiceTest, QuotesNoPriceForLightThatIsNeverFound) {

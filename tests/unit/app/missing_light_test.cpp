@@ -29,6 +29,16 @@ TEST(MissingLight, NamesTheIntegratorThatFindsMore) {
   EXPECT_EQ(MissingLight(near[0], near), "");
 }
 
+// A brighter mean may be noise, but one with less noise shows that light is missing.
+TEST(MissingLight, IsNotHiddenByABrighterMeanWithMuchNoise) {
+  const std::vector<PilotMean> means{FoundLight("path", {.2, .02}),
+                                     FoundLight("exphotonmap", {1, .02}),
+                                     FoundLight("guidedpath", {1.5, .9, 3})};
+  EXPECT_NE(MissingLight(means[0], means).find("80 % less light than exphotonmap"),
+            std::string::npos);
+  EXPECT_EQ(MissingLight(means[1], means), "");
+}
+
 // With few degrees of freedom, a distance of ten standard errors is not improbable.
 TEST(MissingLight, NeedsAKnownError) {
   for (const double freedom : {1., 2., 100.}) {

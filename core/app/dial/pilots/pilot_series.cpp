@@ -7,6 +7,7 @@ namespace exphoton::cli {
 namespace {
 
 constexpr double kLeastPhotons = 1. / 4;  // of the scene's
+constexpr int kMoreSamples = 8;           // for the light of a rough pilot
 
 }  // namespace
 
@@ -44,6 +45,13 @@ bool PilotSeries::RenderRough() {
   model_.biasOfFewer = last_.guessedBias;
   model_.FitNoise({PilotOf(last_, kFewPhotons)});
   return true;
+}
+
+void PilotSeries::RenderRoughLight() {
+  PilotRequest rough = FirstRequest();
+  rough.samples *= kMoreSamples;
+  last_ = renderer_->Render(rough);
+  spent_ += CostOf(last_).maps + CostOf(last_).samples;
 }
 
 // The photons of the pilot cost nothing in the first pass of the picture.

@@ -33,6 +33,8 @@ class PilotSeries {
   // Renders a rough pilot. It shows what all photons cost, but its noise is too high. It does not
   // belong to the series. Returns false for path, which needs none.
   bool RenderRough();
+  // Renders a rough pilot with more samples, to know the light better. Prices stay.
+  void RenderRoughLight();
   // Sets the factor of the photons of later pilots, after a rough one.
   void UsePhotons(double photons);
   // Leaves effects out of later pilots.
