@@ -14,6 +14,9 @@ class OrthographicCamera final : public CameraBase {
   Matrix4 WorldToNdc() const override {
     return WindowMatrix(1, false) * CameraToWorld().InverseMatrix();
   }
+  Matrix4 WorldToNdcThrough(Point2 lens) const override {
+    return WindowMatrix(1, false) * LensShear(lens) * CameraToWorld().InverseMatrix();
+  }
 
  private:
   CameraSpaceRay Generate(Point2 film, Point2 lens) const override {

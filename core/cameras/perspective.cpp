@@ -38,6 +38,9 @@ class PerspectiveCamera final : public CameraBase {
   Matrix4 WorldToNdc() const override {
     return WindowMatrix(tan_, true) * CameraToWorld().InverseMatrix();
   }
+  Matrix4 WorldToNdcThrough(Point2 lens) const override {
+    return WindowMatrix(tan_, true) * LensShear(lens) * CameraToWorld().InverseMatrix();
+  }
 
  private:
   CameraSpaceRay Generate(Point2 film, Point2 lens) const override {

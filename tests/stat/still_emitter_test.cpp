@@ -342,5 +342,34 @@ INSTANTIATE_TEST_SUITE_P(Filters, LampEdgeTest,
                          testing::Values("\"box\"", "\"gaussian\"",
                                          "\"triangle\" \"float xwidth\" 1.5"));
 
+// Rays through the lens hardly ever meet such a lamp. A disk of blur has the light of the lamp in
+// focus, because a point of the lens shows the lamp in the same size.
+TEST(StillEmitters, TinyLampsOutOfFocusKeepTheirLight) {
+  const auto lightOf = [](const std::string& camera, const std::string& lens) {
+    std::string scene =
+        LampScene("Camera \"" + camera + "\" " + lens + "PixelFilter \"box\"",
+                  "Translate .3 .2 2 Rotate 180 0 1 0 Shape \"disk\" \"float radius\" .02");
+    scene.replace(scene.find("\"path\""), 6, kCosts);
+    scene.replace(scene.find(" 64\n"), 3, " 512");
+    std::pair<double, int> sum{};  // and the number of values above 0, three for a pixel
+    for (const double value : RenderSceneText(scene).values) {
+      sum.first += value / 3;
+      sum.second += value > 0;
+    }
+    return sum;
+  };
+  for (const std::string camera : {"perspective", "orthographic"}) {
+    const auto [sharp, few] = lightOf(camera, "");
+    const auto [blurred, many] =
+        lightOf(camera, "\"float lensradius\" .2 \"float focaldistance\" .5 ");
+    EXPECT_LE(few, 3 * 4) << camera;
+    EXPECT_GE(many, 3 * 12) << camera;
+    EXPECT_NEAR(blurred / sharp, 1, .03) << camera;
+    const double pixel = 2. / kHeight;  // of the orthographic camera
+    if (camera == "orthographic")
+      EXPECT_NEAR(sharp, 50 * 3.14159 * .02 * .02 / (pixel * pixel), .03 * sharp);
+  }
+}
+
 }  // namespace
 }  // namespace exphoton

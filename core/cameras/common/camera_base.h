@@ -145,6 +145,18 @@ class CameraBase : public Camera {
     return matrix;
   }
 
+  // Returns the matrix that moves a point of camera space to where the ray to it through the centre
+  // of the lens has the film place of the ray through another point. Points in focus stay.
+  Matrix4 LensShear(Point2 lens) const {
+    Matrix4 matrix;
+    if (!(settings_.lensRadius > 0)) return matrix;
+    const Point2 l = SampleDisk(lens) * settings_.lensRadius;
+    const double distance = settings_.focalDistance;
+    matrix.m[0][2] = double(l.x) / distance, matrix.m[0][3] = -double(l.x);
+    matrix.m[1][2] = double(l.y) / distance, matrix.m[1][3] = -double(l.y);
+    return matrix;
+  }
+
   // Returns a point of world space in camera space.
   Point3 ToCamera(const Point3& p, Real time) const {
     const Transform toWorld = motion_.Moves() ? motion_.At(time) : cameraToWorld_;

@@ -41,6 +41,9 @@ class Camera {
   }
   // World to normalised device coordinates, for the EXR attribute; identity if there is none.
   virtual Matrix4 WorldToNdc() const { return {}; }
+  // The same for rays through one point of the lens (CameraSample::lens): a point of the world is
+  // projected to the film place whose ray meets it.
+  virtual Matrix4 WorldToNdcThrough(Point2 lens) const { return (void)lens, WorldToNdc(); }
 };
 
 }  // namespace exphoton

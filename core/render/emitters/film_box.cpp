@@ -56,6 +56,11 @@ PixelBounds FilmBox::Pixels(const PixelBounds& crop, double xWidth, double yWidt
           within(std::ceil(y1_ + .5 + yWidth), crop.y0, crop.y1)};
 }
 
+void FilmBox::Extend(const FilmBox& other) {
+  x0_ = std::min(x0_, other.x0_), x1_ = std::max(x1_, other.x1_);
+  y0_ = std::min(y0_, other.y0_), y1_ = std::max(y1_, other.y1_);
+}
+
 FilmBox FilmBox::Grown(double margin) const {
   FilmBox grown = *this;
   grown.x0_ -= margin, grown.x1_ += margin;

@@ -23,6 +23,8 @@ class FilmBox {
   double Area() const { return (x1_ - x0_) * (y1_ - y0_); }  // in pixels
   // Returns the pixels of `crop` whose filters of these half-widths overlap the rectangle.
   PixelBounds Pixels(const PixelBounds& crop, double xWidth, double yWidth) const;
+  // Makes the rectangle contain another one of the same picture.
+  void Extend(const FilmBox& other);
   // Returns the rectangle with a margin on each side, in pixels.
   FilmBox Grown(double margin) const;
   // Returns the part within the half-widths from a place of the film, in pixels. It may be empty.

@@ -35,14 +35,16 @@ class StillEmitters {
   // cover at most kSmallArea pixels, and for others.
   static constexpr int kMostPlaces = 16, kPlaces = 4;
   static constexpr double kSmallArea = 64;
+  static constexpr int kLensPlaces = 16;
   // PlacesForReflections allows about this number of rays in the specular trees of a sample,
   // because a tree behind glass may have dozens of rays. A box of an emitter in the same pixel may
   // ask for more places.
   static constexpr int kRaysForReflections = 32;
 
-  // Finds the pixels that may show one of the emitters. None is found if the camera moves or has a
-  // lens or no projection, or if the filter has negative values. `depth` is
-  // SurfaceIntegrator::EmissionDepth. Scene and filter must outlive this object.
+  // Finds the pixels that may show one of the emitters. None is found if the camera moves or has no
+  // projection, or if the filter has negative values. With a lens, only tiny emitters are found
+  // that are seen directly. `depth` is SurfaceIntegrator::EmissionDepth. Scene, camera and filter
+  // must outlive this object.
   StillEmitters(const FilmView& view, int depth);
 
   // Returns whether the pixels are those of this film.
@@ -76,6 +78,12 @@ class StillEmitters {
 
   // Returns the tiny emitters. PlacesIn does not count them, except in crowds.
   const TinyEmitters& Tiny() const { return tiny_; }
+  // Returns the number of points of the lens through which each camera sample sees them.
+  int LensPlaces() const { return lens_ ? kLensPlaces : 1; }
+  // Returns the projection through a point of the lens; nullopt: there is no lens.
+  std::optional<Matrix4> Through(Point2 lens) const {
+    return lens_ ? std::optional(lens_->WorldToNdcThrough(lens)) : std::nullopt;
+  }
 
   // Returns the light of the emitter that the camera ray meets first.
   EmittedLight FirstAlong(Ray ray) const;
@@ -98,10 +106,12 @@ class StillEmitters {
   PixelBounds Reached() const {
     return {crop_.x0 - reach_.x, crop_.y0 - reach_.y, crop_.x1 + reach_.x, crop_.y1 + reach_.y};
   }
-  void Mark(const Light& light, const Bounds3& box, const FilmView& view);
+  void Mark(const Light& light, const Bounds3& box, const TinyEmitters::Lens& projections,
+            const FilmView& view);
   void MarkPixel(Point2i pixel, int places);
 
   const Scene& scene_;
+  const Camera* lens_ = nullptr;  // the camera, if it has a lens
   int depth_;
   Point2i reach_;  // the farthest pixel whose reflections count for a pixel, by axis
   Interval shutter_;

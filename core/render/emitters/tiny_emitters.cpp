@@ -24,25 +24,27 @@ Real IntegralOf(const Filter& filter) {
 
 }  // namespace
 
-bool TinyEmitters::IsMetIn(int x, int y, const Emitter& emitter) const {
-  const FilmBox met = BoxIn(emitter, {Real(x) + Real(.5), Real(y) + Real(.5)});
-  return !met.IsEmpty() && met.Area() > 0;
+FilmBox TinyEmitters::BoxOf(const Bounds3& bounds, const Matrix4& projection) const {
+  return FilmBox(bounds, projection, full_).Grown(kMargin);
 }
 
-bool TinyEmitters::Add(Emitter emitter) {
+bool TinyEmitters::Add(const Light& light, const Bounds3& bounds, const Lens& lens) {
   const double xWidth = double(filter_.XWidth()), yWidth = double(filter_.YWidth());
-  emitter.box = emitter.box.Grown(kMargin);
+  Emitter emitter{&light, bounds, BoxOf(bounds, lens.centre)};
   const double area = 4 * xWidth * yWidth;
   if (emitter.box.IsEmpty() || !(emitter.box.Area() <= area)) return false;
-  if (emitter.light->IsProvablyBlack()) return true;
+  if (light.IsProvablyBlack()) return true;
   if (!(integral_ > 0)) integral_ = IntegralOf(filter_);
   counts_.resize(std::size_t(crop_.Width()) * std::size_t(crop_.Height()));
   emitter.places = emitter.box.Area() <= kFewShare * area ? kFewPlaces : kManyPlaces;
-  const PixelBounds shown = emitter.box.Pixels(crop_, xWidth, yWidth);
+  FilmBox reach = emitter.box;  // through any point of the lens
+  for (const Matrix4& projection : lens.border) reach.Extend(BoxOf(bounds, projection));
+  const PixelBounds shown = reach.Pixels(crop_, xWidth, yWidth);
   for (int y = shown.y0; y < shown.y1; ++y) {
     for (int x = shown.x0; x < shown.x1; ++x) {
       const std::uint32_t pixel = IndexOf(x, y);
-      if (counts_[pixel] > kMost || !IsMetIn(x, y, emitter)) continue;
+      const FilmBox met = NearPixel(reach, {Real(x) + Real(.5), Real(y) + Real(.5)});
+      if (counts_[pixel] > kMost || met.IsEmpty() || !(met.Area() > 0)) continue;
       ++counts_[pixel];
       pixels_.push_back({pixel, std::uint32_t(emitters_.size())});
     }

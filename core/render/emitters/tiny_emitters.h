@@ -4,9 +4,11 @@
 // boxes instead:
 //   the integral of f Le over a box of area A = the mean of A f(x) Le(x) over uniform places x,
 // where f is the filter, with the integral 1 (docs/decisions/0106-lamps-smaller-than-pixels.md).
+// With a lens, the box is the one that rays through one point of the lens show.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,15 +30,23 @@ class TinyEmitters {
 
   struct Emitter {
     const Light* light;
-    FilmBox box;
-    int places = 0;  // set by Add
+    Bounds3 bounds;  // in world space
+    FilmBox box;     // through the centre of the lens
+    int places = 0;
+  };
+  // What the camera shows through the points of its lens.
+  struct Lens {
+    Matrix4 centre;
+    std::vector<Matrix4> border;  // points around the lens; empty: there is no lens
   };
 
-  // For pixels of `crop`. The filter must have no negative values and outlive this object.
-  TinyEmitters(const Filter& filter, const PixelBounds& crop) : filter_(filter), crop_(crop) {}
+  // For pixels of `crop` of a picture. The filter must have no negative values and outlive this
+  // object.
+  TinyEmitters(const Filter& filter, const PixelBounds& full, const PixelBounds& crop)
+      : filter_(filter), full_(full), crop_(crop) {}
 
-  // Adds an emitter. Returns whether it is tiny.
-  bool Add(Emitter emitter);
+  // Adds an emitter with these bounds. Returns whether it is tiny.
+  bool Add(const Light& light, const Bounds3& bounds, const Lens& lens);
   // Ends the additions. Removes the emitters of pixels that have too many, and returns these
   // pixels.
   std::vector<Point2i> RemoveCrowds();
@@ -54,19 +64,23 @@ class TinyEmitters {
   // pixels^-2.
   Real FilterDensity(Point2 offset) const { return filter_.Evaluate(offset) / integral_; }
   // Returns the part of an emitter's box that the filter of a pixel with this centre meets, in
-  // pixels.
-  FilmBox BoxIn(const Emitter& emitter, Point2 centre) const {
-    return emitter.box.Near(centre, double(filter_.XWidth()), double(filter_.YWidth()));
+  // pixels. `through` is the projection through a point of the lens; nullopt: there is no lens.
+  FilmBox BoxIn(const Emitter& emitter, Point2 centre,
+                const std::optional<Matrix4>& through = std::nullopt) const {
+    return NearPixel(through ? BoxOf(emitter.bounds, *through) : emitter.box, centre);
   }
 
  private:
   std::uint32_t IndexOf(int x, int y) const {
     return std::uint32_t(y - crop_.y0) * std::uint32_t(crop_.Width()) + std::uint32_t(x - crop_.x0);
   }
-  bool IsMetIn(int x, int y, const Emitter& emitter) const;
+  FilmBox BoxOf(const Bounds3& bounds, const Matrix4& projection) const;
+  FilmBox NearPixel(const FilmBox& box, Point2 centre) const {
+    return box.Near(centre, double(filter_.XWidth()), double(filter_.YWidth()));
+  }
 
   const Filter& filter_;
-  PixelBounds crop_;
+  PixelBounds full_, crop_;
   Real integral_ = 0;  // of the filter; 0: not known yet
   std::vector<Emitter> emitters_;
   std::vector<InPixel> pixels_;       // sorted by pixel

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "core/render/emitters/still_emitters.h"
@@ -106,6 +107,49 @@ TEST(TinyEmitters, BoxesContainAllRaysToTheirLamps) {
   }
   EXPECT_GT(boxes, 8);
   EXPECT_GT(rays, 5000);
+}
+
+// Returns whether all rays through a lens that meet its lamp lie in the lamp's box, in a pixel that
+// knows the lamp. Counts them.
+bool FindsRaysThroughTheLens(const std::string& camera, int* rays) {
+  std::mt19937_64 random(8);
+  const auto uniform = [&] { return Real(double(random() >> 11) * 0x1p-53); };
+  const LoadedScene scene = LoadSceneText(
+      "LookAt 3 .2 3  4 .3 4  0 1 0\nSurfaceIntegrator \"path\" PixelFilter \"box\"\n"
+      "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\nCamera \"" +
+      camera +
+      "\" \"float lensradius\" .1 \"float focaldistance\" .8\nWorldBegin\n"
+      "AreaLightSource \"area\" \"color L\" [9 9 9]\n"
+      "Translate 4.2 .339 4.21 Shape \"sphere\" \"float radius\" .03\nWorldEnd\n");
+  const StillEmitters emitters = StillIn(scene);
+  const std::optional<TinyEmitters::InPixel> lamp = [&]() -> std::optional<TinyEmitters::InPixel> {
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        if (const auto met = emitters.Tiny().In({x, y}); !met.empty()) return met[0];
+    return std::nullopt;
+  }();
+  if (!lamp) return false;
+  bool areFound = true;
+  for (int i = 0; i < 400000; ++i) {
+    CameraSample sample;
+    sample.lens = Point2(uniform(), uniform());
+    sample.film = Point2(uniform() * 16, uniform() * 16);
+    if (!emitters.FirstAlong(scene.setup->camera->GenerateRay(sample, false)).lamp) continue;
+    ++*rays;
+    const FilmBox box =
+        emitters.Tiny().BoxIn(emitters.Tiny()[*lamp], sample.film, emitters.Through(sample.lens));
+    const Point2i pixel{int(sample.film.x), int(sample.film.y)};
+    areFound = areFound && box.Contains(sample.film) && !emitters.Tiny().In(pixel).empty();
+  }
+  return areFound;
+}
+
+TEST(TinyEmitters, BoxesContainAllRaysThroughTheLens) {
+  for (const std::string camera : {"perspective", "orthographic"}) {
+    int rays = 0;
+    EXPECT_TRUE(FindsRaysThroughTheLens(camera, &rays)) << camera;
+    EXPECT_GT(rays, 50) << camera;
+  }
 }
 
 // The mean over places needs weights that are not negative.
