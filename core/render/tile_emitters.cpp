@@ -76,20 +76,18 @@ void TileRenderer::AveragePlaces(const TracedSample& sample, RenderWorker* worke
 
 Spectrum TileRenderer::TinyLight(const TracedSample& sample, RenderWorker* worker) const {
   const StillEmitters& emitters = *target_.stillEmitters;
-  const auto tiny = emitters.Tiny().In(sample.pixel);
-  if (tiny.empty()) return {};
-  const int places = emitters.LensPlaces();
   Point2& lens = worker->samples.lens;
   const Point2 own = lens;
   Spectrum light;
-  for (int i = 0; i < places; ++i) {
-    lens = StillEmitters::Place(own, i, places);
-    const std::optional<Matrix4> through = emitters.Through(lens);
-    for (const TinyEmitters::InPixel& one : tiny)
-      AddLight(emitters.Tiny()[one], through, sample, worker, &light);
+  for (const TinyEmitters::InPixel& one : emitters.Tiny().In(sample.pixel)) {
+    const TinyEmitters::Emitter& emitter = emitters.Tiny()[one];
+    for (int i = 0; i < emitter.lensPlaces; ++i) {
+      lens = StillEmitters::Place(own, i, emitter.lensPlaces);
+      AddLight(emitter, emitters.Through(lens), sample, worker, &light);
+    }
   }
   lens = own;
-  return light / (Real(places) * sample.filter.weight);
+  return light / sample.filter.weight;
 }
 
 void TileRenderer::AddLight(const TinyEmitters::Emitter& emitter,
@@ -99,7 +97,7 @@ void TileRenderer::AddLight(const TinyEmitters::Emitter& emitter,
   const Point2 centre = PlaceOf(sample.pixel, {{}, 1});
   const FilmBox box = emitters.BoxIn(emitter, centre, through);
   if (box.IsEmpty()) return;
-  const Real area = Real(box.Area()) / Real(emitter.places);
+  const Real area = Real(box.Area()) / Real(emitter.places * emitter.lensPlaces);
   for (int i = 0; i < emitter.places; ++i) {
     const Point2 place = box.At(StillEmitters::Place(worker->samples.film, i, emitter.places));
     worker->totals.rays.Count(RayKind::Camera);

@@ -35,7 +35,6 @@ class StillEmitters {
   // cover at most kSmallArea pixels, and for others.
   static constexpr int kMostPlaces = 16, kPlaces = 4;
   static constexpr double kSmallArea = 64;
-  static constexpr int kLensPlaces = 16;
   // PlacesForReflections allows about this number of rays in the specular trees of a sample,
   // because a tree behind glass may have dozens of rays. A box of an emitter in the same pixel may
   // ask for more places.
@@ -78,8 +77,6 @@ class StillEmitters {
 
   // Returns the tiny emitters. PlacesIn does not count them, except in crowds.
   const TinyEmitters& Tiny() const { return tiny_; }
-  // Returns the number of points of the lens through which each camera sample sees them.
-  int LensPlaces() const { return lens_ ? kLensPlaces : 1; }
   // Returns the projection through a point of the lens; nullopt: there is no lens.
   std::optional<Matrix4> Through(Point2 lens) const {
     return lens_ ? std::optional(lens_->WorldToNdcThrough(lens)) : std::nullopt;

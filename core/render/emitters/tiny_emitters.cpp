@@ -2,6 +2,8 @@
 #include "core/render/emitters/tiny_emitters.h"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 namespace exphoton {
 namespace {
@@ -39,6 +41,9 @@ bool TinyEmitters::Add(const Light& light, const Bounds3& bounds, const Lens& le
   emitter.places = emitter.box.Area() <= kFewShare * area ? kFewPlaces : kManyPlaces;
   FilmBox reach = emitter.box;  // through any point of the lens
   for (const Matrix4& projection : lens.border) reach.Extend(BoxOf(bounds, projection));
+  emitter.lensPlaces = int(std::bit_ceil(
+      unsigned(std::ceil(std::clamp(reach.Area() / area, 1., double(kMostLensPlaces))))));
+  if (lens.border.empty()) emitter.lensPlaces = 1;
   const PixelBounds shown = reach.Pixels(crop_, xWidth, yWidth);
   for (int y = shown.y0; y < shown.y1; ++y) {
     for (int x = shown.x0; x < shown.x1; ++x) {

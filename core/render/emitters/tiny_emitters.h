@@ -25,6 +25,9 @@ class TinyEmitters {
   // Places in a box, for one camera sample. They are at least as dense as the 16 places in the
   // filter that other small emitters have (StillEmitters::kMostPlaces).
   static constexpr int kFewPlaces = 4, kManyPlaces = 16;
+  // A lamp out of focus has a point of the lens for each support of the filter in its disk of blur,
+  // up to this number, because few of them show the lamp in one pixel.
+  static constexpr int kMostLensPlaces = 16;
   // Boxes that cover more than this share of the filter's area have many places.
   static constexpr double kFewShare = 1. / 4;
 
@@ -33,6 +36,7 @@ class TinyEmitters {
     Bounds3 bounds;  // in world space
     FilmBox box;     // through the centre of the lens
     int places = 0;
+    int lensPlaces = 1;  // points of the lens for one camera sample, a power of two
   };
   // What the camera shows through the points of its lens.
   struct Lens {
