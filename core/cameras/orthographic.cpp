@@ -14,8 +14,8 @@ class OrthographicCamera final : public CameraBase {
   Matrix4 WorldToNdc() const override {
     return WindowMatrix(1, false) * CameraToWorld().InverseMatrix();
   }
-  Matrix4 WorldToNdcThrough(Point2 lens) const override {
-    return WindowMatrix(1, false) * LensShear(lens) * CameraToWorld().InverseMatrix();
+  std::optional<Matrix4> WorldToNdcThrough(Point2 point) const override {
+    return WindowMatrix(1, false) * LensShear(point) * CameraToWorld().InverseMatrix();
   }
 
  private:

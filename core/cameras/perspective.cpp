@@ -38,8 +38,8 @@ class PerspectiveCamera final : public CameraBase {
   Matrix4 WorldToNdc() const override {
     return WindowMatrix(tan_, true) * CameraToWorld().InverseMatrix();
   }
-  Matrix4 WorldToNdcThrough(Point2 lens) const override {
-    return WindowMatrix(tan_, true) * LensShear(lens) * CameraToWorld().InverseMatrix();
+  std::optional<Matrix4> WorldToNdcThrough(Point2 point) const override {
+    return WindowMatrix(tan_, true) * LensShear(point) * CameraToWorld().InverseMatrix();
   }
 
  private:

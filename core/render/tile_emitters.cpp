@@ -2,6 +2,7 @@
 // TileRenderer: the light of emitters that the camera sees, averaged over times and places.
 #include <algorithm>
 
+#include "core/math/sampling/sampling.h"
 #include "core/render/tile_renderer.h"
 
 namespace exphoton {
@@ -83,19 +84,19 @@ Spectrum TileRenderer::TinyLight(const TracedSample& sample, RenderWorker* worke
     const TinyEmitters::Emitter& emitter = emitters.Tiny()[one];
     for (int i = 0; i < emitter.lensPlaces; ++i) {
       lens = StillEmitters::Place(own, i, emitter.lensPlaces);
-      AddLight(emitter, emitters.Through(lens), sample, worker, &light);
+      AddLight(emitter, sample, worker, &light);
     }
   }
   lens = own;
   return light / sample.filter.weight;
 }
 
-void TileRenderer::AddLight(const TinyEmitters::Emitter& emitter,
-                            const std::optional<Matrix4>& through, const TracedSample& sample,
+void TileRenderer::AddLight(const TinyEmitters::Emitter& emitter, const TracedSample& sample,
                             RenderWorker* worker, Spectrum* light) const {
   const TinyEmitters& emitters = target_.stillEmitters->Tiny();
   const Point2 centre = PlaceOf(sample.pixel, {{}, 1});
-  const FilmBox box = emitters.BoxIn(emitter, centre, through);
+  const Point2 lens = emitter.border.empty() ? Point2() : SampleDisk(worker->samples.lens);
+  const FilmBox box = emitters.BoxIn(emitter, centre, lens);
   if (box.IsEmpty()) return;
   const Real area = Real(box.Area()) / Real(emitter.places * emitter.lensPlaces);
   for (int i = 0; i < emitter.places; ++i) {

@@ -108,9 +108,9 @@ class TileRenderer {
                      AovSample* aovs) const;
   // Returns the light of the tiny emitters in the sample's pixel, from places in their boxes.
   Spectrum TinyLight(const TracedSample& sample, RenderWorker* worker) const;
-  // Adds the light of one of them, through a point of the lens (TinyEmitters::BoxIn).
-  void AddLight(const TinyEmitters::Emitter& emitter, const std::optional<Matrix4>& through,
-                const TracedSample& sample, RenderWorker* worker, Spectrum* light) const;
+  // Adds the light of one of them, through the worker's point of the lens.
+  void AddLight(const TinyEmitters::Emitter& emitter, const TracedSample& sample,
+                RenderWorker* worker, Spectrum* light) const;
   // Traces a few specular trees in the pixel. Returns the number of rays of one tree, or 0 if they
   // meet no still emitter. These rays are not counted. The result is the same in all passes.
   int RaysOfReflection(Point2i pixel, RenderWorker* worker) const;

@@ -11,7 +11,8 @@ take more than MOST_SECONDS, where another setting is cheaper, or where the erro
 the smallest accuracy. Each setting has two seeds: the mean of their relMSE and the smaller time.
 "Best" is the CPU time of the cheapest setting in the grid for the error that the dial reached,
 interpolated between two numbers of samples. They are rendered beside each picture of the dial,
-because machines are noisy. "Times best" is the ratio of both times. Where a picture takes more than 3
+because machines are noisy. Each picture has the setting for its own error. "Times best" is the ratio
+of the mean times. Where a picture takes more than 3
 MOST_SECONDS by the clock, the accuracy is out of reach. Accuracies where the noise of the reference
 exceeds a fifth of the squared error are left out. The folder of
 --cache keeps references and grids for later runs. Another reference or size has other files there.

@@ -345,9 +345,10 @@ INSTANTIATE_TEST_SUITE_P(Filters, LampEdgeTest,
 // Rays through the lens hardly ever meet such a lamp. A disk of blur has the light of the lamp in
 // focus, because a point of the lens shows the lamp in the same size.
 TEST(StillEmitters, TinyLampsOutOfFocusKeepTheirLight) {
-  const auto lightOf = [](const std::string& camera, const std::string& lens) {
+  const auto lightOf = [](const std::string& camera, const std::string& lens,
+                          const std::string& filter) {
     std::string scene =
-        LampScene("Camera \"" + camera + "\" " + lens + "PixelFilter \"box\"",
+        LampScene("Camera \"" + camera + "\" " + lens + "PixelFilter " + filter,
                   "Translate .3 .2 2 Rotate 180 0 1 0 Shape \"disk\" \"float radius\" .02");
     scene.replace(scene.find("\"path\""), 6, kCosts);
     scene.replace(scene.find(" 64\n"), 3, " 512");
@@ -358,13 +359,15 @@ TEST(StillEmitters, TinyLampsOutOfFocusKeepTheirLight) {
     }
     return sum;
   };
+  const std::string box = "\"box\"", wide = "\"gaussian\" \"float xwidth\" 1 \"float ywidth\" 1";
+  const std::string lens = "\"float lensradius\" .2 \"float focaldistance\" .5 ";
   for (const std::string camera : {"perspective", "orthographic"}) {
-    const auto [sharp, few] = lightOf(camera, "");
-    const auto [blurred, many] =
-        lightOf(camera, "\"float lensradius\" .2 \"float focaldistance\" .5 ");
+    const auto [sharp, few] = lightOf(camera, "", box);
+    const auto [blurred, many] = lightOf(camera, lens, box);
     EXPECT_LE(few, 3 * 4) << camera;
     EXPECT_GE(many, 3 * 12) << camera;
     EXPECT_NEAR(blurred / sharp, 1, .03) << camera;
+    EXPECT_NEAR(lightOf(camera, lens, wide).first / sharp, 1, .03) << camera;
     const double pixel = 2. / kHeight;  // of the orthographic camera
     if (camera == "orthographic")
       EXPECT_NEAR(sharp, 50 * 3.14159 * .02 * .02 / (pixel * pixel), .03 * sharp);

@@ -111,12 +111,16 @@ void Explorer::SettleLight() {
 }
 
 void Explorer::LookAgain() {
+  const bool isDear = candidate_.reason == kDearBias;
+  if (isDear) candidate_.reason.clear();
   Guarded([&] {
     if (!isRough_ || hasLookedAgain_) return;
     hasLookedAgain_ = true;
+    pilots_->LimitRoughPaths(roughPaths_);
     series_.RenderRoughLight();
     TakeLight();
   });
+  if (isDear && candidate_.reason.empty()) candidate_.reason = kDearBias;
 }
 
 // Returns whether there is a rough pilot. If it is cut off, and the photons of the picture would
@@ -125,6 +129,7 @@ bool Explorer::RenderRough(double most) {
   double paths = MostPaths(most);
   for (;; paths *= kMorePaths) {
     pilots_->LimitRoughPaths(paths);
+    roughPaths_ = paths;
     if (!series_.RenderRough()) return false;
     if (!series_.Last().isCutOff) return true;
     candidate_.leastPrice = kPhotonsOfPicture * series_.Last().cost.maps;

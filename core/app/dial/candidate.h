@@ -70,7 +70,7 @@ class Explorer {
   void Settle(double most);
   // Renders a pilot of full size to know the light, whatever it costs, also if there is no price.
   void SettleLight();
-  // Renders a rough pilot with more samples to know the light better, once.
+  // Renders the rough pilot with more samples to know its light better, at most once.
   void LookAgain();
   bool HasLookedAgain() const { return hasLookedAgain_; }
   // Leaves out effects of photon maps that may be the cheapest ones, before all photons are shot.
@@ -110,6 +110,7 @@ class Explorer {
   PilotSeries series_;
   Wish wish_;
   bool isRough_ = false, hasLookedAgain_ = false;
+  double roughPaths_ = 0;    // limit of the photon paths of the rough pilot
   double gain_ = 1;          // divides the noise of the model
   double leastSamples_ = 0;  // that a picture which was given up needs
   Candidate candidate_;

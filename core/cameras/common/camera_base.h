@@ -146,11 +146,11 @@ class CameraBase : public Camera {
   }
 
   // Returns the matrix that moves a point of camera space to where the ray to it through the centre
-  // of the lens has the film place of the ray through another point. Points in focus stay.
-  Matrix4 LensShear(Point2 lens) const {
+  // of the lens has the film place of the ray through another point, which is in the unit disk.
+  // Points in focus stay.
+  Matrix4 LensShear(Point2 point) const {
     Matrix4 matrix;
-    if (!(settings_.lensRadius > 0)) return matrix;
-    const Point2 l = SampleDisk(lens) * settings_.lensRadius;
+    const Point2 l = point * settings_.lensRadius;
     const double distance = settings_.focalDistance;
     matrix.m[0][2] = double(l.x) / distance, matrix.m[0][3] = -double(l.x);
     matrix.m[1][2] = double(l.y) / distance, matrix.m[1][3] = -double(l.y);

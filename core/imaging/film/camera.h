@@ -3,6 +3,8 @@
 // and a time to a ray in world space.
 #pragma once
 
+#include <optional>
+
 #include "core/geometry/ray.h"
 #include "core/math/animated_transform.h"
 
@@ -41,9 +43,13 @@ class Camera {
   }
   // World to normalised device coordinates, for the EXR attribute; identity if there is none.
   virtual Matrix4 WorldToNdc() const { return {}; }
-  // The same for rays through one point of the lens (CameraSample::lens): a point of the world is
-  // projected to the film place whose ray meets it.
-  virtual Matrix4 WorldToNdcThrough(Point2 lens) const { return (void)lens, WorldToNdc(); }
+  // The same for rays through one point of the lens: a point of the world is projected to the film
+  // place whose ray meets it. `point` is in the unit disk, and (0, 0) is the centre: SampleDisk of
+  // CameraSample::lens. Along each axis, the place must depend linearly on the point. nullopt: the
+  // camera does not know it, so lamps out of focus are left to chance.
+  virtual std::optional<Matrix4> WorldToNdcThrough(Point2 point) const {
+    return (void)point, std::nullopt;
+  }
 };
 
 }  // namespace exphoton

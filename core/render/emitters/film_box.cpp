@@ -61,6 +61,14 @@ void FilmBox::Extend(const FilmBox& other) {
   y0_ = std::min(y0_, other.y0_), y1_ = std::max(y1_, other.y1_);
 }
 
+FilmBox FilmBox::Between(const Way& x, const Way& y) {
+  FilmBox box = x.from;
+  box.x0_ += x.t * (x.to.x0_ - x.from.x0_), box.x1_ += x.t * (x.to.x1_ - x.from.x1_);
+  box.y0_ = y.from.y0_ + y.t * (y.to.y0_ - y.from.y0_);
+  box.y1_ = y.from.y1_ + y.t * (y.to.y1_ - y.from.y1_);
+  return box;
+}
+
 FilmBox FilmBox::Grown(double margin) const {
   FilmBox grown = *this;
   grown.x0_ -= margin, grown.x1_ += margin;

@@ -25,6 +25,13 @@ class FilmBox {
   PixelBounds Pixels(const PixelBounds& crop, double xWidth, double yWidth) const;
   // Makes the rectangle contain another one of the same picture.
   void Extend(const FilmBox& other);
+  struct Way {
+    const FilmBox &from, &to;
+    double t;  // in [0, 1]
+  };
+  // Returns the rectangle whose x range is interpolated along one way, and whose y range is
+  // interpolated along another.
+  static FilmBox Between(const Way& x, const Way& y);
   // Returns the rectangle with a margin on each side, in pixels.
   FilmBox Grown(double margin) const;
   // Returns the part within the half-widths from a place of the film, in pixels. It may be empty.

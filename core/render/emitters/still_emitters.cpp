@@ -27,16 +27,16 @@ Bounds3 WithMargin(const Bounds3& box, const Point3& eye) {
   return {box.min - by, box.max + by};
 }
 
-// Returns the projections through the centre of the lens and through four points of its border. The
-// film place of a point depends linearly on the point of the lens, along both axes apart, so the
-// boxes of these four contain all others.
-TinyEmitters::Lens ProjectionsOf(const Camera& camera, bool hasLens) {
+// Returns the projections through points of the lens; nullopt: the camera does not know them all.
+std::optional<TinyEmitters::Lens> ProjectionsOf(const Camera& camera, bool hasLens) {
   TinyEmitters::Lens projections{camera.WorldToNdc(), {}};
+  if (projections.centre == Matrix4()) return std::nullopt;
   if (!hasLens) return projections;
-  constexpr Real kHalf = Real(.5);
-  for (const Point2& border :
-       {Point2(0, kHalf), Point2(1, kHalf), Point2(kHalf, 0), Point2(kHalf, 1)})
-    projections.border.push_back(camera.WorldToNdcThrough(border));
+  for (const Point2& border : {Point2(-1, 0), Point2(1, 0), Point2(0, -1), Point2(0, 1)}) {
+    const auto through = camera.WorldToNdcThrough(border);
+    if (!through) return std::nullopt;
+    projections.border.push_back(*through);
+  }
   return projections;
 }
 
@@ -51,22 +51,22 @@ StillEmitters::StillEmitters(const FilmView& view, int depth)
       tiny_(view.filter, view.film.Full(), view.film.Crop()) {
   const RequiredFeatures& features = view.scene.Features();
   if (!features.Needs(Feature::Motion)) shutter_.max = shutter_.min;
-  if (view.camera.HasLens() && features.Needs(Feature::Lens)) lens_ = &view.camera;
-  const TinyEmitters::Lens projections = ProjectionsOf(view.camera, lens_ != nullptr);
+  const bool hasLens = view.camera.HasLens() && features.Needs(Feature::Lens);
+  const auto projections = ProjectionsOf(view.camera, hasLens);
   const bool isBlurred = view.camera.MovesWithin(shutter_);
-  if (isBlurred || HasNegativeValues(view.filter) || projections.centre == Matrix4()) return;
+  if (isBlurred || HasNegativeValues(view.filter) || !projections) return;
   const Point3 eye = view.camera.CameraToWorld().ApplyPoint({});
   const std::vector<Bounds3> moving = view.scene.Primitives().MovingEmitters(shutter_);
   for (const auto& light : view.scene.Lights()) {
     const auto box = light->IsDelta() ? std::nullopt : light->Bounds();
     if (!box) continue;
-    if (!lens_ && depth > 0 && features.Needs(Feature::Specular) && !reflections_)
+    if (!hasLens && depth > 0 && features.Needs(Feature::Specular) && !reflections_)
       reflections_.emplace(Reached());
     if (box->Contains(eye)) continue;
     const bool moves = std::any_of(moving.begin(), moving.end(), [&](const Bounds3& swept) {
       return swept.Contains(box->min) && swept.Contains(box->max);
     });
-    if (!moves) Mark(*light, *box, projections, view);
+    if (!moves) Mark(*light, *box, *projections, view);
   }
   for (const Point2i& pixel : tiny_.RemoveCrowds()) MarkPixel(pixel, kMostPlaces);
 }
@@ -74,7 +74,7 @@ StillEmitters::StillEmitters(const FilmView& view, int depth)
 void StillEmitters::Mark(const Light& light, const Bounds3& box,
                          const TinyEmitters::Lens& projections, const FilmView& view) {
   const Point3 eye = view.camera.CameraToWorld().ApplyPoint({});
-  if (tiny_.Add(light, WithMargin(box, eye), projections) || lens_) return;
+  if (tiny_.Add(light, WithMargin(box, eye), projections) || !projections.border.empty()) return;
   const FilmBox onFilm(box, projections.centre, view.film.Full());
   const PixelBounds marked =
       onFilm.Pixels(crop_, double(view.filter.XWidth()), double(view.filter.YWidth()));

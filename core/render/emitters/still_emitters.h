@@ -42,8 +42,8 @@ class StillEmitters {
 
   // Finds the pixels that may show one of the emitters. None is found if the camera moves or has no
   // projection, or if the filter has negative values. With a lens, only tiny emitters are found
-  // that are seen directly. `depth` is SurfaceIntegrator::EmissionDepth. Scene, camera and filter
-  // must outlive this object.
+  // that are seen directly. `depth` is SurfaceIntegrator::EmissionDepth. Scene and filter must
+  // outlive this object.
   StillEmitters(const FilmView& view, int depth);
 
   // Returns whether the pixels are those of this film.
@@ -77,10 +77,6 @@ class StillEmitters {
 
   // Returns the tiny emitters. PlacesIn does not count them, except in crowds.
   const TinyEmitters& Tiny() const { return tiny_; }
-  // Returns the projection through a point of the lens; nullopt: there is no lens.
-  std::optional<Matrix4> Through(Point2 lens) const {
-    return lens_ ? std::optional(lens_->WorldToNdcThrough(lens)) : std::nullopt;
-  }
 
   // Returns the light of the emitter that the camera ray meets first.
   EmittedLight FirstAlong(Ray ray) const;
@@ -108,7 +104,6 @@ class StillEmitters {
   void MarkPixel(Point2i pixel, int places);
 
   const Scene& scene_;
-  const Camera* lens_ = nullptr;  // the camera, if it has a lens
   int depth_;
   Point2i reach_;  // the farthest pixel whose reflections count for a pixel, by axis
   Interval shutter_;

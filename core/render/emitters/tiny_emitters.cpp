@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace exphoton {
 namespace {
@@ -30,32 +31,49 @@ FilmBox TinyEmitters::BoxOf(const Bounds3& bounds, const Matrix4& projection) co
   return FilmBox(bounds, projection, full_).Grown(kMargin);
 }
 
+FilmBox TinyEmitters::BoxThrough(const Emitter& emitter, Point2 lens) {
+  if (emitter.border.empty()) return emitter.box;
+  return FilmBox::Between({emitter.border[0], emitter.border[1], double(lens.x + 1) / 2},
+                          {emitter.border[2], emitter.border[3], double(lens.y + 1) / 2});
+}
+
 bool TinyEmitters::Add(const Light& light, const Bounds3& bounds, const Lens& lens) {
   const double xWidth = double(filter_.XWidth()), yWidth = double(filter_.YWidth());
-  Emitter emitter{&light, bounds, BoxOf(bounds, lens.centre)};
+  Emitter emitter{&light, BoxOf(bounds, lens.centre), {}};
   const double area = 4 * xWidth * yWidth;
   if (emitter.box.IsEmpty() || !(emitter.box.Area() <= area)) return false;
   if (light.IsProvablyBlack()) return true;
   if (!(integral_ > 0)) integral_ = IntegralOf(filter_);
   counts_.resize(std::size_t(crop_.Width()) * std::size_t(crop_.Height()));
-  emitter.places = emitter.box.Area() <= kFewShare * area ? kFewPlaces : kManyPlaces;
   FilmBox reach = emitter.box;  // through any point of the lens
-  for (const Matrix4& projection : lens.border) reach.Extend(BoxOf(bounds, projection));
-  emitter.lensPlaces = int(std::bit_ceil(
-      unsigned(std::ceil(std::clamp(reach.Area() / area, 1., double(kMostLensPlaces))))));
-  if (lens.border.empty()) emitter.lensPlaces = 1;
-  const PixelBounds shown = reach.Pixels(crop_, xWidth, yWidth);
+  double largest = emitter.box.Area();
+  for (const Matrix4& projection : lens.border) {
+    emitter.border.push_back(BoxOf(bounds, projection));
+    reach.Extend(emitter.border.back());
+    largest = std::max(largest, emitter.border.back().Area());
+  }
+  emitter.places = largest <= kFewShare * area ? kFewPlaces : kManyPlaces;
+  const double supports = lens.border.empty() ? 1 : std::ceil(reach.Area() / area);
+  emitter.lensPlaces =
+      int(std::bit_ceil(unsigned(std::clamp(supports, 1., double(kMostLensPlaces)))));
+  CountIn(reach);
+  emitters_.push_back(std::move(emitter));
+  return true;
+}
+
+// Adds the next emitter to the pixels whose filters meet this box.
+void TinyEmitters::CountIn(const FilmBox& reach) {
+  const PixelBounds shown = reach.Pixels(crop_, double(filter_.XWidth()), double(filter_.YWidth()));
   for (int y = shown.y0; y < shown.y1; ++y) {
     for (int x = shown.x0; x < shown.x1; ++x) {
       const std::uint32_t pixel = IndexOf(x, y);
+      if (counts_[pixel] > kMost) continue;
       const FilmBox met = NearPixel(reach, {Real(x) + Real(.5), Real(y) + Real(.5)});
-      if (counts_[pixel] > kMost || met.IsEmpty() || !(met.Area() > 0)) continue;
+      if (met.IsEmpty() || !(met.Area() > 0)) continue;
       ++counts_[pixel];
       pixels_.push_back({pixel, std::uint32_t(emitters_.size())});
     }
   }
-  emitters_.push_back(emitter);
-  return true;
 }
 
 std::vector<Point2i> TinyEmitters::RemoveCrowds() {

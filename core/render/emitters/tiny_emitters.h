@@ -8,7 +8,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,8 +21,8 @@ namespace exphoton {
 class TinyEmitters {
  public:
   static constexpr int kMost = 4;  // emitters in the filter of a pixel
-  // Places in a box, for one camera sample. They are at least as dense as the 16 places in the
-  // filter that other small emitters have (StillEmitters::kMostPlaces).
+  // Places in a box, for one camera sample and one point of the lens. They are at least as dense as
+  // the 16 places in the filter that other small emitters have (StillEmitters::kMostPlaces).
   static constexpr int kFewPlaces = 4, kManyPlaces = 16;
   // A lamp out of focus has a point of the lens for each support of the filter in its disk of blur,
   // up to this number, because few of them show the lamp in one pixel.
@@ -33,15 +32,16 @@ class TinyEmitters {
 
   struct Emitter {
     const Light* light;
-    Bounds3 bounds;  // in world space
-    FilmBox box;     // through the centre of the lens
+    FilmBox box;                  // through the centre of the lens
+    std::vector<FilmBox> border;  // through the points of Lens::border
     int places = 0;
     int lensPlaces = 1;  // points of the lens for one camera sample, a power of two
   };
-  // What the camera shows through the points of its lens.
+  // What the camera shows through the points of its lens: the centre, and (-1, 0), (1, 0), (0, -1)
+  // and (0, 1) of the unit disk. Without a lens there is no border.
   struct Lens {
     Matrix4 centre;
-    std::vector<Matrix4> border;  // points around the lens; empty: there is no lens
+    std::vector<Matrix4> border;
   };
 
   // For pixels of `crop` of a picture. The filter must have no negative values and outlive this
@@ -67,11 +67,12 @@ class TinyEmitters {
   // Returns the filter's value at an offset from the centre of its pixel, for the integral 1. In
   // pixels^-2.
   Real FilterDensity(Point2 offset) const { return filter_.Evaluate(offset) / integral_; }
-  // Returns the part of an emitter's box that the filter of a pixel with this centre meets, in
-  // pixels. `through` is the projection through a point of the lens; nullopt: there is no lens.
-  FilmBox BoxIn(const Emitter& emitter, Point2 centre,
-                const std::optional<Matrix4>& through = std::nullopt) const {
-    return NearPixel(through ? BoxOf(emitter.bounds, *through) : emitter.box, centre);
+  // Returns a box of an emitter for a point of the lens, in the unit disk. It contains the smallest
+  // one: film places depend linearly on the point, so the sides of that one are convex functions.
+  static FilmBox BoxThrough(const Emitter& emitter, Point2 lens);
+  // Returns the part of it that the filter of a pixel with this centre meets, in pixels.
+  FilmBox BoxIn(const Emitter& emitter, Point2 centre, Point2 lens) const {
+    return NearPixel(BoxThrough(emitter, lens), centre);
   }
 
  private:
@@ -79,6 +80,7 @@ class TinyEmitters {
     return std::uint32_t(y - crop_.y0) * std::uint32_t(crop_.Width()) + std::uint32_t(x - crop_.x0);
   }
   FilmBox BoxOf(const Bounds3& bounds, const Matrix4& projection) const;
+  void CountIn(const FilmBox& reach);
   FilmBox NearPixel(const FilmBox& box, Point2 centre) const {
     return box.Near(centre, double(filter_.XWidth()), double(filter_.YWidth()));
   }

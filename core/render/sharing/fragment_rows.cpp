@@ -3,11 +3,13 @@
 #include "core/render/sharing/fragment_rows.h"
 
 #include <bit>
+#include <stdexcept>
 
 namespace exphoton {
 
 FragmentRows::FragmentRows(const GatherFragments& gathers, int stride)
     : shift_(std::countr_zero(unsigned(stride))) {
+  if (!std::has_single_bit(unsigned(stride))) throw std::invalid_argument("stride of fragments");
   const PixelBounds& bounds = gathers.Bounds();
   grid_ = {CeilDivide(bounds.x0), CeilDivide(bounds.y0), CeilDivide(bounds.x1),
            CeilDivide(bounds.y1)};

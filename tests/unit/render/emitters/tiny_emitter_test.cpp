@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 
+#include "core/math/sampling/sampling.h"
 #include "core/render/emitters/still_emitters.h"
 #include "tests/support/test_scene.h"
 
@@ -116,9 +117,9 @@ bool FindsRaysThroughTheLens(const std::string& camera, int* rays) {
   const auto uniform = [&] { return Real(double(random() >> 11) * 0x1p-53); };
   const LoadedScene scene = LoadSceneText(
       "LookAt 3 .2 3  4 .3 4  0 1 0\nSurfaceIntegrator \"path\" PixelFilter \"box\"\n"
-      "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\nCamera \"" +
+      "Film \"image\" \"integer xresolution\" 16 \"integer yresolution\" 16\nCamera " +
       camera +
-      "\" \"float lensradius\" .1 \"float focaldistance\" .8\nWorldBegin\n"
+      " \"float lensradius\" .1 \"float focaldistance\" .8\nWorldBegin\n"
       "AreaLightSource \"area\" \"color L\" [9 9 9]\n"
       "Translate 4.2 .339 4.21 Shape \"sphere\" \"float radius\" .03\nWorldEnd\n");
   const StillEmitters emitters = StillIn(scene);
@@ -137,7 +138,7 @@ bool FindsRaysThroughTheLens(const std::string& camera, int* rays) {
     if (!emitters.FirstAlong(scene.setup->camera->GenerateRay(sample, false)).lamp) continue;
     ++*rays;
     const FilmBox box =
-        emitters.Tiny().BoxIn(emitters.Tiny()[*lamp], sample.film, emitters.Through(sample.lens));
+        emitters.Tiny().BoxIn(emitters.Tiny()[*lamp], sample.film, SampleDisk(sample.lens));
     const Point2i pixel{int(sample.film.x), int(sample.film.y)};
     areFound = areFound && box.Contains(sample.film) && !emitters.Tiny().In(pixel).empty();
   }
@@ -145,7 +146,9 @@ bool FindsRaysThroughTheLens(const std::string& camera, int* rays) {
 }
 
 TEST(TinyEmitters, BoxesContainAllRaysThroughTheLens) {
-  for (const std::string camera : {"perspective", "orthographic"}) {
+  const std::string window = " \"float screenwindow\" [1.2 -1 -1 1.1]";
+  for (const std::string camera : {std::string("\"perspective\""), std::string("\"orthographic\""),
+                                   "\"perspective\"" + window, "\"orthographic\"" + window}) {
     int rays = 0;
     EXPECT_TRUE(FindsRaysThroughTheLens(camera, &rays)) << camera;
     EXPECT_GT(rays, 50) << camera;
