@@ -25,6 +25,7 @@ class FilmBox {
   PixelBounds Pixels(const PixelBounds& crop, double xWidth, double yWidth) const;
   // Makes the rectangle contain another one of the same picture.
   void Extend(const FilmBox& other);
+  // A way between two rectangles.
   struct Way {
     const FilmBox &from, &to;
     double t;  // in [0, 1]
