@@ -197,10 +197,11 @@ class Table:
         return hits
 
     def print_sums(self):
-        geometric = math.exp(mean([math.log(ratio) for ratio in self.ratios] or [0]))
+        logs = [math.log(ratio) for ratio in self.ratios]
+        geometric = f", geometric mean {math.exp(mean(logs)):.3g}" if logs else ""
         print(f"{self.kept} of {self.count} promises kept; {self.thrifty} errors above half of the "
               f"accuracy; times {', '.join(f'{ratio:.2g}' for ratio in sorted(self.ratios))} times "
-              f"the best, geometric mean {geometric:.3g}")
+              f"the best{geometric}")
 
 
 def main():

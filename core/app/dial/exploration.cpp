@@ -11,12 +11,12 @@ constexpr double kNotableOmission = .005;  // root of relMSE
 // A rough pilot has a tenth of the photons and few pixels, so its light is known to about this. A
 // wrong suspicion only costs a pilot.
 constexpr LightTest kFarMore{.leastMissing = .1, .mostChance = .02};
+// The same without a pilot of full size that would confirm it.
+constexpr LightTest kSurelyMore{.leastMissing = .2, .mostChance = 6.3e-5};
 // So much light is suspicious, whatever its noise: where few photons leave the surroundings of a
 // lamp, the noise of a small pilot is hardly known. A rough pilot with more samples follows, which
 // dilutes a single bright sample. (A difference above the least one has a chance below a half.)
 constexpr LightTest kHalfMore{.leastMissing = 1. / 3, .mostChance = .5};
-// The same without a pilot of full size that would confirm it.
-constexpr LightTest kSurelyMore{.leastMissing = .2, .mostChance = 6.3e-5};
 // Shared gathers need few rays at a point, and more points bring more (docs/decisions/0055). Fewer
 // rays would make the bias of sharing uncertain.
 constexpr int kGatherRays = 16;

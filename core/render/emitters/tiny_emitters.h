@@ -68,7 +68,8 @@ class TinyEmitters {
   // pixels^-2.
   Real FilterDensity(Point2 offset) const { return filter_.Evaluate(offset) / integral_; }
   // Returns a box of an emitter for a point of the lens, in the unit disk. It contains the smallest
-  // one: film places depend linearly on the point, so the sides of that one are convex functions.
+  // one: film places depend linearly on the point, so the lower sides of that one are concave
+  // functions of the point, and the upper sides are convex.
   static FilmBox BoxThrough(const Emitter& emitter, Point2 lens);
   // Returns the part of it that the filter of a pixel with this centre meets, in pixels.
   FilmBox BoxIn(const Emitter& emitter, Point2 centre, Point2 lens) const {

@@ -9,7 +9,8 @@ namespace exphoton {
 
 FragmentRows::FragmentRows(const GatherFragments& gathers, int stride)
     : shift_(std::countr_zero(unsigned(stride))) {
-  if (!std::has_single_bit(unsigned(stride))) throw std::invalid_argument("stride of fragments");
+  if (!std::has_single_bit(unsigned(stride)))
+    throw std::invalid_argument("the stride is no power of 2");
   const PixelBounds& bounds = gathers.Bounds();
   grid_ = {CeilDivide(bounds.x0), CeilDivide(bounds.y0), CeilDivide(bounds.x1),
            CeilDivide(bounds.y1)};
