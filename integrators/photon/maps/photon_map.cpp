@@ -66,6 +66,7 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
   const Real spacings = Real(kOwnDisk * query.k * query.diskArea);
   Irradiance found;
   Real largest2 = 0;
+  std::size_t owns = 0;
   for (std::size_t at = 0; at < around.photons.size(); ++at) {
     const std::uint32_t i = around.photons[at];
     const Real distance2 = around.distance2[at],
@@ -77,11 +78,11 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
     const bool isOwn = !(distance2 > 0);
     (isOwn ? found.own : found.e) += part;
     (isOwn ? found.signedOwn : found.signedE) += part * Sign(i);
-    if (isOwn) found.ownDisk2 = double(disk2);
+    if (isOwn) found.ownDisk2 = double(disk2), ++owns;
   }
   arena->Rewind(mark);
   const Real radius2 = around.radius2, ofDisks2 = largest2 / Real(kOwnDisk);
-  found.density = double(around.photons.size()) / double(radius2) * query.diskArea;
+  found.density = double(around.photons.size() - owns) / double(radius2) * query.diskArea;
   found.radius = std::sqrt(largest2 > 0 ? std::min(radius2, ofDisks2) : radius2);
   return found;
 }

@@ -95,7 +95,7 @@ class PhotonMap {
     Spectrum own;      // of photons at p itself
     Spectrum signedOwn;
     double ownDisk2 = 0;  // squared radius of their disks
-    double density = 0;   // photons in a disk whose squared radius is 1
+    double density = 0;   // other photons in a disk whose squared radius is 1
     Real radius = 0;      // of Find, at most the one of k photons as dense as in the largest disk
   };
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena) const;

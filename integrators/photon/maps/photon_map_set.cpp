@@ -30,8 +30,8 @@ Real SmallestRadius(std::size_t photons, int nUsed, Real sceneRadius) {
 // radiance photons in a disk, because their share grows.
 OwnPhotonWeight WeightOfOwnPhoton(const PhotonSettings& settings, double diskArea) {
   const double share = double(settings.radianceFraction) / diskArea;
-  const double inReach = settings.nUsed * double(Square(settings.radianceReach)) * diskArea;
-  return share * inReach > 0 ? OwnPhotonWeight(share, inReach) : OwnPhotonWeight();
+  const auto reach = double(settings.radianceReach);
+  return share * reach > 0 ? OwnPhotonWeight(share, reach) : OwnPhotonWeight();
 }
 
 }  // namespace
@@ -187,15 +187,18 @@ PhotonMapSet::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const
   Irradiance total;
   Real weight = 0, weightedRadius = 0;
   for (const PhotonMap::Irradiance& part : parts) {
-    const Real own = Real(ownWeight_.In(density * part.ownDisk2));
-    const Spectrum e = part.e + part.own * own;
-    total.e += e;
-    total.signedE += part.signedE + part.signedOwn * own;
-    weight += e.Y();
-    weightedRadius += e.Y() * part.radius;
+    const Real light = (part.e + part.own).Y();
+    weight += light;
+    weightedRadius += light * part.radius;
     total.radius = std::max(total.radius, part.radius);
   }
   if (weight > 0) total.radius = weightedRadius / weight;
+  const double inReach = density * double(Square(total.radius)) * ownWeight_.Reach2();
+  for (const PhotonMap::Irradiance& part : parts) {
+    const Real own = Real(ownWeight_.In(density * part.ownDisk2, inReach));
+    total.e += part.e + part.own * own;
+    total.signedE += part.signedE + part.signedOwn * own;
+  }
   return total;
 }
 

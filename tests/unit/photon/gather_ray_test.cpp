@@ -22,10 +22,11 @@ constexpr double kReflected = .3, kTransmitted = .6;
 constexpr double kAbove = 1, kBelow = 3;
 // The 32nd photon of both sides has the squared distance .05 from a lattice point. Disks of photons
 // follow from it, and hold 12 points besides the centre. The 50th point has the squared distance
-// .17.
-constexpr double kDisk2 = PhotonMap::kOwnDisk * 50 * .05 / 32;
-const double kLattice =
-    (12 + OwnPhotonWeight(.125, 50).In(49 / .17 * kDisk2)) / (kDisk2 * kPi64) / 100;
+// .17. Rays read a radiance photon within the disk of 50 photons that are as dense as in their own
+// disks.
+constexpr double kDisk2 = PhotonMap::kOwnDisk * 50 * .05 / 32, kReach2 = 50 * .05 / 32;
+const double kOwnWeight = OwnPhotonWeight(.125, 1).In(48 / .17 * kDisk2, 48 / .17 * kReach2);
+const double kLattice = (12 + kOwnWeight) / (kDisk2 * kPi64) / 100;
 
 const char* const kPane =
     "Material \"translucent\" \"color Kd\" [1 1 1] \"color Ks\" [0 0 0] \"color reflect\" [.3 .3 "

@@ -26,9 +26,9 @@ PhotonMap PlanePhotons(std::uint64_t seed, Real edge) {
   return PhotonMap(PhotonBuffer(photons, 10000), threads);
 }
 
-PhotonMap::Irradiance EstimateAt(const PhotonMap& map, const Point3& p) {
+PhotonMap::Irradiance EstimateAt(const PhotonMap& map, const Point3& p, Real farthest = Real(.2)) {
   Arena arena;
-  return map.EstimateIrradiance({p, {0, 0, 1}, kNearest, Real(.2), true}, &arena);
+  return map.EstimateIrradiance({p, {0, 0, 1}, kNearest, farthest, true}, &arena);
 }
 
 double IrradianceAt(const PhotonMap& map, const Point3& p) {
@@ -118,50 +118,88 @@ TEST(PhotonDisks, OfFewPhotonsHaveTheLargestRadius) {
   EXPECT_NEAR(double(e.own.g * kPi * 4), 1, 1e-5);
 }
 
-// One photon in eight has a radiance photon. Points read the nearest one.
-TEST(PhotonDisks, HaveTheTrueMeanAtTheNearestRadiancePhoton) {
-  constexpr double kShare = .125;
-  const OwnPhotonWeight weight(kShare, kNearest);
-  double sum = 0;
-  int count = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const PhotonMap map = PlanePhotons(seed, 1);
+// Points read the nearest of the radiance photons, which a share of the photons have. Points that
+// find none use the disk of k photons about them.
+struct ReadingPoints {
+  double share = .125;
+  double farthest = .2;  // radius of the largest disk
+  int seeds = 40;
+
+  double MeanIrradiance() const {
+    const OwnPhotonWeight weight(share, 1);
+    double sum = 0;
+    int count = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const PhotonMap map = PlanePhotons(std::uint64_t(seed), 1);
+      RandomStream random(100 + std::uint64_t(seed));
+      const PhotonMap sites = RadiancePhotons(map, &random);
+      for (int i = 0; i < 1000; ++i, ++count)
+        sum += ReadAt(
+            map, sites, weight,
+            {Real(.15) + Real(.7) * random.Uniform(), Real(.15) + Real(.7) * random.Uniform(), 0});
+    }
+    return sum / count;
+  }
+
+ private:
+  PhotonMap RadiancePhotons(const PhotonMap& map, RandomStream* random) const {
     std::vector<Photon> chosen;
-    RandomStream random(100 + seed);
     for (std::uint32_t i = 0; i < map.Size(); ++i)
-      if (double(random.Uniform()) < kShare)
+      if (double(random->Uniform()) < share)
         chosen.push_back({map.Position(i), {0, 0, 1}, Spectrum(1)});
     ThreadPool threads(1);
-    const PhotonMap sites(PhotonBuffer(chosen, 1), threads);
-    Arena arena;
-    for (int i = 0; i < 1000; ++i) {
-      const Point3 p{Real(.15) + Real(.7) * random.Uniform(),
-                     Real(.15) + Real(.7) * random.Uniform(), 0};
-      const Point3 site = sites.Position(sites.Nearest(p, 1, &arena).index[0]);
-      if (double(Length(site - p)) > kRadius) continue;
-      const PhotonMap::Irradiance found = EstimateAt(map, site);
-      sum += double(found.e.g) + double(found.own.g) * weight.In(found.density * found.ownDisk2);
-      ++count;
-    }
+    return PhotonMap(PhotonBuffer(chosen, 1), threads);
   }
-  EXPECT_NEAR(sum / count, 1, .004);
+
+  double ReadAt(const PhotonMap& map, const PhotonMap& sites, const OwnPhotonWeight& weight,
+                const Point3& p) const {
+    Arena arena;
+    const Point3 site = sites.Position(sites.Nearest(p, 1, &arena).index[0]);
+    const PhotonMap::Irradiance found = EstimateAt(map, site, Real(farthest));
+    if (double(Length(site - p)) <= double(found.radius))
+      return double(found.e.g) +
+             double(found.own.g) *
+                 weight.In(found.density * found.ownDisk2,
+                           found.density * double(found.radius) * double(found.radius));
+    const PhotonNeighbourhood around =
+        map.Find({p, {0, 0, 1}, kNearest, Real(farthest), true}, &arena);
+    return double(around.photons.size()) / (10000 * std::numbers::pi * double(around.radius2));
+  }
+};
+
+TEST(PhotonDisks, HaveTheTrueMeanAtTheNearestRadiancePhoton) {
+  EXPECT_NEAR(ReadingPoints().MeanIrradiance(), 1, .004);
+}
+
+// Disks of 2 photons of constant size hold few radiance photons, and most points find none.
+TEST(PhotonDisks, HaveTheTrueMeanWhereMostPointsFindNoRadiancePhoton) {
+  const double radius = std::sqrt(2 / 10000. / std::numbers::pi);
+  EXPECT_NEAR((ReadingPoints{.125, radius, 80}.MeanIrradiance()), 1, .01);
 }
 
 // The circle about a point that ends at the nearest radiance photon is wholly in a large disk, and
 // holds one radiance photon in the mean. Half of a small disk lies in it.
 TEST(OwnPhotonWeight, FollowsTheSizeOfTheDisk) {
-  EXPECT_NEAR(OwnPhotonWeight(1, 1000).In(1000), 1, .01);
+  EXPECT_NEAR(OwnPhotonWeight(1, 1).In(1000, 1000), 1, .01);
+  const OwnPhotonWeight weight(.125, 1);
   for (const double inDisk : {.3, .01, 1e-6})
-    EXPECT_NEAR(OwnPhotonWeight(.125, 50).In(inDisk) / inDisk, .061, .004) << inDisk;
-  EXPECT_NEAR(OwnPhotonWeight(.125, 50).In(30), .72, .005);
-  EXPECT_NEAR(OwnPhotonWeight(.125, 50).In(50), .865, .005);
-  EXPECT_EQ(OwnPhotonWeight().In(3), 1);
+    EXPECT_NEAR(weight.In(inDisk, 100) / inDisk, .061, .004) << inDisk;
+  EXPECT_NEAR(weight.In(30, 50), .72, .01);
+  EXPECT_NEAR(weight.In(50, 50), .877, .01);
+  EXPECT_EQ(OwnPhotonWeight().In(3, 5), 1);
   double last = 0;
   for (double inDisk = 0; inDisk < 200; inDisk += 1) {
-    const double weight = OwnPhotonWeight(.125, 50).In(inDisk);
-    EXPECT_GE(weight, last - .001);
-    last = weight;
+    EXPECT_GE(weight.In(inDisk, 50), last - .001);
+    last = weight.In(inDisk, 50);
   }
+}
+
+// Where nearly no point finds a radiance photon, those that do must make up for all others.
+TEST(OwnPhotonWeight, IsOneInADiskWithoutOthers) {
+  const OwnPhotonWeight weight(.125, 1);
+  for (const double inReach : {0., 1e-9, .001, .1})
+    EXPECT_NEAR(weight.In(inReach, inReach), 1, .01);
+  EXPECT_NEAR(weight.In(.06, .1), .6, .01);
 }
 
 }  // namespace
