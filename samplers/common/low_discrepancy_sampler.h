@@ -31,7 +31,7 @@ constexpr std::array<std::uint32_t, 32> ReversedDirections() {
 inline constexpr std::array<std::uint32_t, 32> kDirections = ReversedDirections();
 
 // Block generates the points of one request at one sample: an aligned block of 2^k points of the
-// sequence. Gray code order needs one exclusive-or per point.
+// sequence, or a random choice of these. Gray code order needs one exclusive-or per point.
 class Block {
  public:
   // `requestKey` is a hash of (seed, pixel, request). `shuffled` is a power of two.
@@ -47,6 +47,10 @@ class Block {
     if (round != 0) key_ = MixBits(key_ + kGolden * round);
     const auto first = static_cast<std::uint32_t>(s << shift);
     index_ = OwenScramble(first, std::uint32_t(shuffleKey)) >> shift << shift;
+    // Fewer points than a block leave some of it out. Each sample must leave out others, because a
+    // pixel would otherwise never see a part of the domain.
+    if (count > 0 && !std::has_single_bit(count))
+      index_ |= std::uint32_t(MixBits(key_ ^ MixBits(s + 1)) >> (64 - shift));
     second_ = SobolSecondReversed(index_);
   }
 

@@ -31,8 +31,10 @@ const char* StopReasonName(StopReason reason) {
 }
 
 void PassSum::Add(const Film& pass, std::int64_t samplesPerPixel, int group) {
+  const int place = PlaceOfGroup(group, kPlaces, joined_ > 0);
   picture_->Add(pass);
-  noise_.Add(PlaceOfGroup(group, kPlaces, joined_ > 0), pass, samplesPerPixel);
+  noise_.Add(place, pass, samplesPerPixel);
+  if (sets_.AreJoined()) sets_.Add(group, place, samplesPerPixel);
   relativeVariance_.reset();
   ++passes_;
   groups_ = std::max(groups_, group + 1);
@@ -47,7 +49,7 @@ void PassSum::AddLight(const Film& light, int group) {
 
 std::optional<double> PassSum::Noise() const {
   if (!HasTwoGroups()) return std::nullopt;
-  return correction_ * RelativeVariance() + photonNoise_;
+  return NoiseBetweenGroups() + photonNoise_;
 }
 
 double PassSum::RelativeVariance() const {
@@ -55,7 +57,9 @@ double PassSum::RelativeVariance() const {
   return *relativeVariance_;
 }
 
-double PassSum::NoiseError() const { return correction_ * noise_.RelativeVarianceError(); }
+double PassSum::Correction() const { return correction_ * sets_.FactorOn(RelativeVariance()); }
+
+double PassSum::NoiseError() const { return Correction() * noise_.RelativeVarianceError(); }
 
 // Errors fall by the ratio q from the halves of a group to the group, and so do the differences of
 // halves. If groups have photons of their own, the noise of photons shows between groups only. It
@@ -72,6 +76,7 @@ void PassSum::CorrectForSequence(double within, Trust trust) {
 void PassSum::SetPhotonNoise(double relative) { photonNoise_ = relative; }
 
 void PassSum::JoinGroups() {
+  sets_.Join(groups_ > 1 ? correction_ * RelativeVariance() : 0, samples_);
   if (groups_ > 1) {
     noise_.Join();
     correction_ = 1;  // it is of groups without noise of photons between them
@@ -84,6 +89,7 @@ void PassSum::JoinGroups() {
 void PassSum::TakeNoise(const PassSum& other) {
   noise_ = other.noise_;
   correction_ = other.correction_;
+  sets_ = other.sets_;
   relativeVariance_.reset();
 }
 
@@ -109,10 +115,11 @@ void PassSum::Describe(bool needsVariances, PassesResult* result) const {
   result->noiseError = result->noise ? NoiseError() : 0;
   if (!needsVariances || !HasTwoGroups()) return;
   result->variances = noise_.Variances();
+  const double correction = Correction();
   const std::vector<double> levels =
       photonNoise_ > 0 ? noise_.Levels() : std::vector<double>(result->variances.size());
   for (std::size_t i = 0; i < levels.size(); ++i)
-    result->variances[i] = float(double(result->variances[i]) * correction_ +
+    result->variances[i] = float(double(result->variances[i]) * correction +
                                  photonNoise_ * (levels[i] + kRelMseOffset));
 }
 
@@ -122,6 +129,7 @@ void PassSum::TransferCounts(ByteArchive* archive) {
       !(correction_ > 0 && correction_ <= 1) || !(photonNoise_ >= 0) || joined_ < 0 ||
       joined_ > groups_)
     throw ArchiveError("its counts of passes contradict each other");
+  sets_.Transfer(archive);
   relativeVariance_.reset();
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/imaging/film/pass_noise.h"
 #include "core/render/passes/cancelling_errors.h"
+#include "core/render/passes/unequal_sets.h"
 #include "core/render/render.h"
 
 namespace exphoton {
@@ -86,7 +87,7 @@ class PassSum {
   double NoiseError() const;  // its standard error; infinity before the second group
   // The part of Noise that shows between groups, and its degrees of freedom
   // (PassNoise::RelativeVarianceFreedom). Both need two groups.
-  double NoiseBetweenGroups() const { return correction_ * RelativeVariance(); }
+  double NoiseBetweenGroups() const { return Correction() * RelativeVariance(); }
   double NoiseFreedom() const { return noise_.RelativeVarianceFreedom(); }
   // Returns r^2 of each pixel, to which noise is relative: PassNoise::Levels. Certificates divide
   // the bias by the same r, so that both are parts of one relMSE. Needs two groups.
@@ -104,6 +105,8 @@ class PassSum {
  private:
   bool HasTwoGroups() const { return groups_ > std::max(joined_, 1); }
   double RelativeVariance() const;
+  // Returns the factor on the variance between groups.
+  double Correction() const;
 
   Film* picture_;
   Limits limits_;
@@ -111,7 +114,8 @@ class PassSum {
   int passes_ = 0, groups_ = 0;
   int joined_ = 0;  // groups that count as one
   std::int64_t samples_ = 0;
-  double correction_ = 1;   // factor on the noise of independent groups
+  double correction_ = 1;   // factor on the noise of groups of one sequence
+  UnequalSets sets_;        // of photons
   double photonNoise_ = 0;  // of photons that all passes share
   // RelativeVariance of noise_, for the passes so far. It is computed when it is needed.
   mutable std::optional<double> relativeVariance_;

@@ -3,6 +3,7 @@
 // independence of points beyond these properties.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -163,6 +164,26 @@ TEST(LowDiscrepancySampler, PowersOfTwoAreNets) {
       EXPECT_TRUE(IsStratified(array, 8 * (i + 1)));
     }
   }
+}
+
+// An array of three points leaves out a quarter of the domain, but another one in each sample.
+TEST(LowDiscrepancySampler, ArraysOfOtherCountsSeeTheWholeDomain) {
+  constexpr int kSamples = 4096, kCount = 3, kStrata = 4;
+  SampleLayout layout;
+  const int handle1D = layout.Request1D(kCount), handle2D = layout.Request2D(kCount);
+  CameraSamples samples(layout);
+  TestPlugins plugins;
+  const auto sampler = plugins.MakeSampler(R"("lowdiscrepancy" "integer pixelsamples" 4096)");
+  std::array<int, kStrata> found1D{}, foundX{}, foundY{};
+  for (int i = 0; i < kSamples; ++i) {
+    sampler->Generate({7, {3, 4}, i}, &samples);
+    for (const Real value : samples.Array1D(handle1D)) ++found1D[std::size_t(value * kStrata)];
+    for (const Point2& point : samples.Array2D(handle2D))
+      ++foundX[std::size_t(point.x * kStrata)], ++foundY[std::size_t(point.y * kStrata)];
+  }
+  // Each sample leaves a stratum out with the probability 1/4, so counts spread by 28.
+  for (const auto& found : {found1D, foundX, foundY})
+    for (const int count : found) EXPECT_NEAR(count, kSamples * kCount / kStrata, 120);
 }
 
 TEST(LowDiscrepancySampler, GoesOnBeyondFourBillionPoints) {
