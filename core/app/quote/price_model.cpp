@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/render/passes/photon_sets.h"
+#include "core/render/passes/photons/photon_sets.h"
 #include "core/render/sharing/sharing_estimate.h"
 
 namespace exphoton::cli {

@@ -4,11 +4,11 @@
 // photons,
 //   error^2 = noise(n / g) / g + photonNoise / (m k) + (bias / k)^2 + sharing(n / g),
 //   seconds = fixed + m MapsFor(k) + n sample.
-// m is 1 where the groups should keep their photons (core/render/passes/photon_sets.h), otherwise
-// g. Errors are roots of relMSE. noise(m) is the noise of the camera samples of one group: pilots
-// show it, and it falls as m^-slope beyond them. The area of density estimates falls with the
-// number of photons, and bias is proportional to this area. sharing(m) is the squared bias of
-// shared gathers, which share within a group.
+// m is 1 where the groups should keep their photons (core/render/passes/photons/photon_sets.h),
+// otherwise g. Errors are roots of relMSE. noise(m) is the noise of the camera samples of one
+// group: pilots show it, and it falls as m^-slope beyond them. The area of density estimates falls
+// with the number of photons, and bias is proportional to this area. sharing(m) is the squared bias
+// of shared gathers, which share within a group.
 #pragma once
 
 #include <optional>

@@ -7,7 +7,7 @@
 
 #include "core/files/byte_archive.h"
 #include "core/math/chi_square.h"
-#include "core/render/passes/photon_sets.h"
+#include "core/render/passes/photons/photon_sets.h"
 
 namespace exphoton {
 namespace {

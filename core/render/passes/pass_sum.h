@@ -13,7 +13,7 @@
 
 #include "core/imaging/film/pass_noise.h"
 #include "core/render/passes/cancelling_errors.h"
-#include "core/render/passes/unequal_sets.h"
+#include "core/render/passes/photons/unequal_sets.h"
 #include "core/render/render.h"
 
 namespace exphoton {

@@ -9,7 +9,7 @@
 #include "core/render/passes/error_watch.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
-#include "core/render/passes/photon_sets.h"
+#include "core/render/passes/photons/photon_sets.h"
 #include "core/render/passes/progress/pass_progress.h"
 #include "core/render/passes/progressive.h"
 

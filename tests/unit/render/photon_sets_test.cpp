@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests give passes known signed light, and check the noise of the photons and what follows.
-#include "core/render/passes/photon_sets.h"
+#include "core/render/passes/photons/photon_sets.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests add passes whose noise comes from samples and from photons, and compare the estimated
 // noise with the true one.
-#include "core/render/passes/unequal_sets.h"
+#include "core/render/passes/photons/unequal_sets.h"
 
 #include <gtest/gtest.h>
 

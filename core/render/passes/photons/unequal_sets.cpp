@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/render/passes/unequal_sets.h"
+#include "core/render/passes/photons/unequal_sets.h"
 
 #include <algorithm>
 
@@ -23,8 +23,8 @@ std::int64_t UnequalSets::Samples() const {
   return samples;
 }
 
-// Let A / n be the variance of n samples without that of their photons, and B the variance by one
-// set of photons. The mean of all N samples has the variance A / N + B Q, where Q is the sum of the
+// Let A / n be the variance of n samples for given photons, and B the variance by one set of
+// photons. The mean of all N samples has the variance A / N + B Q, where Q is the sum of the
 // squared shares of the sets. PassNoise adds up w^2 d^2 / (1 - w) for the distances d of the places
 // of shares w from the mean. With q, the part of Q of the sets in a place, d^2 has the expected
 // value q B / w^2 (1 - 2 w) + Q B + (1 - w) / w A / N. So the sum finds A / N + B S with

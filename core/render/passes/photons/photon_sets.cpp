@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/render/passes/photon_sets.h"
+#include "core/render/passes/photons/photon_sets.h"
 
 #include <cmath>
 
