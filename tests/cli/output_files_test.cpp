@@ -195,6 +195,8 @@ TEST_F(OutputFiles, HardLinksAreReplacedWithAWarning) {
 }
 
 TEST_F(OutputFiles, AnInterruptedPictureReplacesNothingOfTheUsers) {
+  // With the box filter, all pixels that are rendered belong to the picture.
+  Write("scene.pbrt", SmallScene("PixelFilter \"box\""));
   Write("out.partial.exr", "my file");
   const pid_t process = Start({"scene.pbrt", "--nthreads", "1", "--spp", "100000000"});
   ASSERT_TRUE(WaitForMessage("effects"));
@@ -203,6 +205,34 @@ TEST_F(OutputFiles, AnInterruptedPictureReplacesNothingOfTheUsers) {
   EXPECT_EQ(Wait(process).status, 128 + SIGTERM);
   EXPECT_EQ(Read("out.partial.exr"), "my file");
   EXPECT_EQ(ReadExr(Path("out.partial-2.exr")).Width(), 8);
+}
+
+// The photons take long enough for the signal to come before the first pixel. If they take longer
+// than half a second, the program ends during them.
+TEST_F(OutputFiles, AStopBeforeTheFirstPixelKeepsAnEarlierPartialPicture) {
+  Write("scene.pbrt",
+        SmallScene("SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 60000",
+                   "Shape \"sphere\" \"float radius\" 50"));
+  WritePicture("out.partial.exr", "exphoton 0");
+  Write("out.exr.state", "my file");
+  const std::string older = Read("out.partial.exr");
+  const Names files = Files();
+  for (const Names& more : {Names{"--spp", "100000"}, Names{"--two-halves", "--spp", "100000"},
+                            Names{"--target-error", "1e-9"}, Names{"--certify", "--spp", "100000"},
+                            Names{"--stats-json", "s.json", "--spp", "100000"}}) {
+    Names words{"scene.pbrt", "--nthreads", "1"};
+    words.insert(words.end(), more.begin(), more.end());
+    const pid_t process = Start(words);
+    ASSERT_TRUE(WaitForMessage("effects"));
+    kill(process, SIGTERM);
+    const ProgramResult result = Wait(process);
+    EXPECT_EQ(result.status, 128 + SIGTERM);
+    ExpectIn("interrupted before ", result.err);
+    ExpectNotIn("wrote what is finished", result.err);
+    EXPECT_EQ(Files(), files);
+    EXPECT_EQ(Read("out.partial.exr"), older);
+    EXPECT_EQ(Read("out.exr.state"), "my file");
+  }
 }
 
 // The command nohup also ignores SIGHUP in this way.

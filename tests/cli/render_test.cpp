@@ -304,7 +304,7 @@ TEST_F(RenderCommandTest, FollowsSymbolicLinks) {
 TEST_F(RenderCommandTest, KeepsWhatIsFinishedWhenInterrupted) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Write("out.exr", "older picture");
-    Write("scene.pbrt", SmallScene());
+    Write("scene.pbrt", SmallScene("PixelFilter \"box\""));
     const pid_t process =
         Start({"scene.pbrt", "-o", "out.exr", "--nthreads", "1", "--spp", "100000000"});
     ASSERT_TRUE(WaitForMessage("effects"));  // this message is printed just before rendering

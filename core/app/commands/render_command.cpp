@@ -38,7 +38,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Setups = SceneLoader::Setups;
 
-// Thrown after an interrupted picture has been written.
+// Thrown after an interrupted picture has been written, or if it has no pixel to write.
 struct Interrupted {};
 
 // Run is the state shared by all scene files of a command line.
@@ -99,6 +99,7 @@ class FileRenderer {
   RenderOptions MakeOptions(const PictureFilms& films, const RenderSetup& setup);
   RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
                     ProgressReporter& progress, Statistics& statistics);
+  void WarnOfFewThreads(const ThreadPool& threads) const;
   bool RenderOne(const RenderSetup& setup);
   bool BeginsAgain(const PassesResult& result, const StateKeeper& keeper);
   void RenderPart(const PartJob& part, const Begin& begin);
@@ -108,6 +109,7 @@ class FileRenderer {
   void Conclude(RunRecord* run, const Picture& picture, const Begin& begin, Statistics* statistics);
   void WriteSoFar(const RenderSetup& setup, const PictureSoFar& soFar, Statistics& statistics);
   void EndState(const RunRecord& run, StateKeeper* keeper);
+  [[noreturn]] void EndBeforePixels(const RenderSetup& setup, const StateKeeper& keeper) const;
   void Announce(const RunRecord& run, const Picture& picture);
   void Report(const RunRecord& run);
 
@@ -156,6 +158,12 @@ RenderJob FileRenderer::MakeJob(const RenderSetup& setup, PictureFilms* films, T
           setup.integratorName};
 }
 
+void FileRenderer::WarnOfFewThreads(const ThreadPool& threads) const {
+  if (threads.Count() < command_.threadCount)
+    log_.Warning("only " + std::to_string(threads.Count()) + " of " +
+                 std::to_string(command_.threadCount) + " threads could be started");
+}
+
 // Returns false if --accuracy needs other settings.
 bool FileRenderer::RenderOne(const RenderSetup& setup) {
   const Begin begin = begin_ ? *begin_ : begin_.emplace();
@@ -164,9 +172,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   log_.Verbose("effects:\n" + setup.scene->Features().Describe());
   PictureFilms films(command_, setup);
   ThreadPool threads(command_.threadCount);
-  if (threads.Count() < command_.threadCount)
-    log_.Warning("only " + std::to_string(threads.Count()) + " of " +
-                 std::to_string(command_.threadCount) + " threads could be started");
+  WarnOfFewThreads(threads);
   ProgressReporter progress(command_.showsProgress ? ProgressReporter::Mode::Auto
                                                    : ProgressReporter::Mode::Quiet);
   Statistics statistics;
@@ -193,6 +199,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
       command_, job, options, begin.wall - AsDuration(keeper.EarlierSeconds()), &films);
   if (BeginsAgain(result, keeper)) return false;
   watch_.MustFinish() = true;
+  if (!result.render.isComplete && !films.film.HasSamples()) EndBeforePixels(setup, keeper);
   if (view) view->Show(films.film, setup.crop);
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
@@ -280,6 +287,13 @@ void FileRenderer::EndState(const RunRecord& run, StateKeeper* keeper) {
     log_.Notice(ResumeText(command_, run.scene.name, *keeper));
 }
 
+// A black picture would replace the partial picture of an earlier run, so none is written.
+void FileRenderer::EndBeforePixels(const RenderSetup& setup, const StateKeeper& keeper) const {
+  log_.Notice("interrupted before the first pixel; no picture was written");
+  if (keeper.HasWritten()) log_.Notice(ResumeText(command_, setup.sceneName, keeper));
+  throw Interrupted();
+}
+
 void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const {
   if (command_.dial) run->choice = command_.dial->text, run->omitted = command_.dial->omitted;
   RecordPasses(result, run);
@@ -339,7 +353,7 @@ int RenderFiles(const RenderCommand& command, Run& run) {
       try {
         FileRenderer(command, run, log).Render(index);
       } catch (const Interrupted&) {
-        // The picture is written; SignalNumber gives the exit status.
+        // What there is of the picture is written; SignalNumber gives the exit status.
       }
     });
     log.Summarize();

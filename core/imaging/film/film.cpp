@@ -149,6 +149,11 @@ void Film::TransferSums(ByteArchive* archive, Pixel* p) {
 
 std::int64_t Film::SampleCount(Point2i pixel) const { return pixels_[IndexOf(pixel)].samples; }
 
+bool Film::HasSamples() const {
+  return std::any_of(pixels_.begin(), pixels_.end(),
+                     [](const Pixel& pixel) { return pixel.samples > 0; });
+}
+
 std::array<double, 4> Film::Pixel::Mean() const {
   if (samples == 0) return {};
   if (std::abs(weight) >= .5 * double(absWeight) && weight != 0)

@@ -43,6 +43,7 @@ class Film {
   // Adds radiance to a sample that was added before with this weight.
   void AddLight(Point2i pixel, const Spectrum& L, Real weight);
   std::int64_t SampleCount(Point2i pixel) const;
+  bool HasSamples() const;  // in any pixel
   // For samples that are splatted (core/render/splat_buffer.h): adds a sample to its own pixel, and
   // light to such a sample. `share` is 1 for a whole sample and smaller for a part of one. The
   // pixel shows their mean only if AddSums adds too small a weight.

@@ -29,6 +29,17 @@ TEST(Film, HoldsTheMeanOfEachPixel) {
 }
 
 // The difference between two pictures has light, but no samples of its own.
+TEST(Film, KnowsWhetherItHasSamples) {
+  Film film({0, 0, 3, 2}, {0, 0, 3, 2});
+  EXPECT_FALSE(film.HasSamples());
+  film.AddLight({1, 1}, Spectrum(1), 1);
+  EXPECT_FALSE(film.HasSamples());
+  film.AddSample({2, 1}, Spectrum(), 0, 1);  // black
+  EXPECT_TRUE(film.HasSamples());
+  film.Clear();
+  EXPECT_FALSE(film.HasSamples());
+}
+
 TEST(Film, SavesLightWithoutSamples) {
   const PixelBounds bounds{0, 0, 2, 2};
   Film saved(bounds, bounds), loaded(bounds, bounds), picture(bounds, bounds);
