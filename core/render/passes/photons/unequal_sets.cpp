@@ -2,6 +2,7 @@
 #include "core/render/passes/photons/unequal_sets.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/files/byte_archive.h"
 
@@ -54,11 +55,15 @@ double UnequalSets::FactorOn(double between) const {
 void UnequalSets::Transfer(ByteArchive* archive) {
   archive->Values(&noiseOfSample_);
   sets_.resize(archive->Count(sets_.size(), sizeof(int) * 2 + sizeof(std::int64_t)));
-  bool isPossible = noiseOfSample_ >= 0;
+  constexpr int kMostPlaces = 1024;
+  constexpr std::int64_t kMostSamples = std::int64_t(1) << 50;  // of all sets
+  bool isPossible = noiseOfSample_ >= 0 && std::isfinite(noiseOfSample_);
+  std::int64_t left = kMostSamples;
   for (Set& set : sets_) {
     archive->Values(&set.group, &set.place, &set.samples);
-    constexpr int kMostPlaces = 1024;
-    isPossible = isPossible && set.place >= 0 && set.place < kMostPlaces && set.samples > 0;
+    isPossible = isPossible && set.place >= 0 && set.place < kMostPlaces && set.samples > 0 &&
+                 set.samples <= left;
+    left -= isPossible ? set.samples : 0;
   }
   if (!isPossible) throw ArchiveError("its sets of photons are impossible");
 }
