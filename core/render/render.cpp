@@ -196,7 +196,8 @@ struct PassRenderer::State {
       if (sharing.isOn) target.gathers = &gathers.emplace(rows, 1);
       RenderTiles(target, part);
       if (IsStopped()) break;
-      for (const ShardTile& tile : part) writer.AddTile(tile, film, options.aovs, target.gathers);
+      for (const ShardTile& tile : part)
+        writer.AddTile(tile, film, {options.aovs, target.gathers, options.corrections});
       open = open.subspan(part.size());
     }
     job.progress.End();

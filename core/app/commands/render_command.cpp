@@ -204,7 +204,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = ElapsedSince(start);
-  run.certificate = CertificateOf(films, result, setup, FootprintSamples(job, options));
+  run.certificate = CertificateOf(films, result, NotCovered(setup, FootprintSamples(job, options)));
   TakeResult(result, &run);
   const Picture picture =
       Write(run, MakeImage(films, result, setup.film.premultiplyAlpha), statistics);
@@ -232,10 +232,7 @@ RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& st
   run.seed = command_.seed;
   run.footprintSamples = command_.footprintSamples;
   run.aovs = AovNames(command_);
-  if (command_.accuracy) run.unseen = setup.integrator->UnseenLight(*setup.scene);
-  if (command_.dial && command_.dial->lackingShare > 0)
-    run.unseen.push_back(Format("about %.0f %% of the light that exphotonmap finds",
-                                100 * command_.dial->lackingShare));
+  run.unseen = UnseenLight(command_, setup);
   return run;
 }
 
@@ -302,10 +299,7 @@ void FileRenderer::TakeResult(const PassesResult& result, RunRecord* run) const 
   run->accuracy = command_.accuracy;
   run->pilots = loader_.Pilots();
   if (command_.RendersTwoHalves() || command_.HasStoppingRule()) log_.Notice(StoppingText(*run));
-  for (const std::string& light : run->unseen)
-    log_.Warning("the error does not contain " + light + ", because integrator \"" +
-                     run->scene.integrator + "\" does not find it",
-                 {}, "--integrator exphotonmap finds this light");
+  WarnOfUnseenLight(run->unseen, run->scene.integrator, log_);
   if (command_.certifies) ReportCertificate(run->certificate, log_);
 }
 

@@ -136,6 +136,20 @@ std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command)
   return std::max(kLeastGroup, std::int64_t(std::bit_floor(std::uint64_t(size))));
 }
 
+// States how many passes the accuracy is likely to take (--max-passes). A pass that is rendered in
+// vain costs as much as one that is needed, so the number should not be far above it.
+void ReportPasses(const RenderCommand& command, Log& log) {
+  const DialChoice& dial = *command.dial;
+  const double needed = std::max(std::ceil(dial.expectedSamples / double(dial.firstSamples)), 2.);
+  log.Notice(
+      Format("a pass has %lld samples a pixel, and about %.0f passes are likely to be enough",
+             static_cast<long long>(dial.firstSamples), needed));
+  if (needed > command.maxPasses)
+    log.Warning(Format("--max-passes %d is likely to end the picture before its accuracy of %.3g%%",
+                       command.maxPasses, 100 * *command.accuracy),
+                {}, Format("about %.0f passes are likely to be enough", needed));
+}
+
 void Apply(const DialSettings& settings, RenderCommand* command) {
   for (ParameterOverride& parameter : settings.Overrides())
     command->load.parameters.push_back(std::move(parameter));
@@ -149,9 +163,13 @@ void Replace(const DialSettings& earlier, const DialSettings& settings, RenderCo
   Apply(settings, command);
 }
 
+// Each of a limited number of passes has the samples of the sampler. Textures are filtered for all
+// passes together.
 void SetFirstSamples(std::int64_t samples, RenderCommand* command) {
+  const int passes = command->maxPasses;
   command->dial->firstSamples = samples;
-  command->load.samplesPerPixel = 2 * kMostGrowth * samples;
+  command->load.samplesPerPixel = passes > 0 ? samples : 2 * kMostGrowth * samples;
+  if (passes > 0 && command->footprintSamples == 0) command->footprintSamples = samples * passes;
 }
 
 // Returns whether the scene has photons, and would not have too many of them.
@@ -222,24 +240,27 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
   const std::vector<GivenUp>& given = command.givenUp;
-  turned->dial =
-      DialChoice{.firstSamples = FirstSamples(chosen, command),
-                 .biasShare = chosen.biasShare,
-                 .photonSamples = chosen.photonSamples,
-                 .settings = chosen.settings,
-                 .omitted = chosen.omitted,
-                 .lackingShare = chosen.lackingShare,
-                 .text = ChoiceText(pilots, chosen),
-                 .expectedSamples = chosen.price.samples,
-                 .mayRaisePhotons = !command.keepsSettings && MayRaisePhotons(chosen.settings),
-                 .earlierLooks = given.empty() ? 0 : given.back().looks,
-                 .rivalSamples = RivalSamples(candidates, chosen, given)};
+  turned->dial = DialChoice{.firstSamples = FirstSamples(chosen, command),
+                            .biasShare = chosen.biasShare,
+                            .photonSamples = chosen.photonSamples,
+                            .settings = chosen.settings,
+                            .omitted = chosen.omitted,
+                            .lackingShare = chosen.lackingShare,
+                            .text = ChoiceText(pilots, chosen),
+                            .expectedSamples = chosen.price.samples,
+                            .mayRaisePhotons = !command.keepsSettings && command.maxPasses == 0 &&
+                                               MayRaisePhotons(chosen.settings),
+                            .earlierLooks = given.empty() ? 0 : given.back().looks,
+                            .rivalSamples = RivalSamples(candidates, chosen, given)};
   Apply(chosen.settings, turned);
   SetFirstSamples(turned->dial->firstSamples, turned);
   turned->certifies = chosen.correctedShare > 0;
   turned->certifiedShare = turned->certifies ? chosen.correctedShare : turned->certifiedShare;
   log.Notice("accuracy " + accuracy + ": " + turned->dial->text);
-  log.Notice(ReasonText(candidates, chosen));
+  // A merge repeats the messages of all shards, and their clocks differ.
+  const std::string reason = ReasonText(candidates, chosen);
+  command.shard ? log.Verbose(reason) : log.Notice(reason);
+  if (command.maxPasses > 0) ReportPasses(*turned, log);
   for (const OmittedEffect& effect : chosen.omitted) log.Notice(TextOf(effect));
   if (command.keepsSettings) log.Notice(CostOfKeeping(&pilots, chosen, wish));
   return renderer;

@@ -18,9 +18,10 @@ void TakeAccuracy(const std::string& percentage, RenderCommand* command) {
   exclude(command->targetError.has_value(), "--target-error");
   exclude(command->asTwoHalves, "--two-halves");
   exclude(command->certifies, "--certify");
-  exclude(command->maxPasses > 0, "--max-passes");
   exclude(command->isProgressive, "--progressive");
   exclude(command->load.isQuick, "--quick");
+  if (command->maxPasses == 1)
+    FailUsage("--accuracy needs --max-passes 2 at least: the error shows between two passes");
 }
 
 }  // namespace exphoton::cli

@@ -102,8 +102,8 @@ void AddAmountOptions(OptionParser& app, RenderCommand& command, RawOptions& raw
   app.AddFlag("--keep", command.keepsSettings,
               "with --accuracy: keep the integrator and the photons of the scene");
   app.Add("--max-passes", command.maxPasses,
-          "with --target-error or --progressive: at most N whole passes, each with the samples a "
-          "pixel of --spp")
+          "with --target-error, --accuracy or --progressive: at most N whole passes, each with the "
+          "samples a pixel of --spp, or with those that --accuracy chooses")
       .Between(1, kMaxPasses)
       .TypeName("N");
   app.AddFlag("--progressive", command.isProgressive,
@@ -253,19 +253,20 @@ void CheckPasses(const RawOptions& raw, const RenderCommand& command) {
 // How many passes a time limit allows differs between machines, and a part belongs to no picture
 // of its own.
 void TakeShard(const RawOptions& raw, RenderCommand* command) {
-  Exclude(command->maxPasses > 0, !command->targetError && !command->isProgressive,
-          "--max-passes needs --target-error or --progressive");
+  Exclude(command->maxPasses > 0,
+          !command->targetError && !command->accuracy && !command->isProgressive,
+          "--max-passes needs --target-error, --accuracy or --progressive");
   Exclude(command->maxPasses > 0, bool(command->timeLimit),
           "--max-passes and --time-limit exclude each other");
   if (raw.shard.empty()) return;
   command->shard = ParseShard(raw.shard);
-  Exclude(command->accuracy.has_value(), true, "--accuracy and --shard exclude each other");
   if (command->timeLimit)
     FailUsage("--shard and --time-limit exclude each other: machines differ in speed",
               "--target-error X --max-passes N stops all shards after the same passes");
-  if (command->targetError && command->maxPasses == 0)
+  if ((command->targetError || command->accuracy) && command->maxPasses == 0)
     FailUsage(
-        "--shard with --target-error needs --max-passes N",
+        std::string("--shard with ") + (command->accuracy ? "--accuracy" : "--target-error") +
+            " needs --max-passes N",
         "each shard renders all N passes, and exphoton merge drops those that are not needed");
   Exclude(command->resumes || command->writeEvery || !command->stateFile.empty(), true,
           "--shard excludes --resume, --state and --write-every: a part is rendered as a whole");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "core/base/format.h"
 #include "core/render/passes/render_halves.h"
 
 namespace exphoton::cli {
@@ -12,7 +13,7 @@ namespace {
 
 constexpr const char* kHalfNames[2] = {"half1", "half2"};
 
-// The picture may begin again unless time is limited.
+// The picture may begin again unless the time or the passes are limited.
 StoppingRule::Accuracy RuleOf(double error, const RenderCommand& command) {
   const DialChoice& dial = *command.dial;
   StoppingRule::Accuracy accuracy;
@@ -24,7 +25,8 @@ StoppingRule::Accuracy RuleOf(double error, const RenderCommand& command) {
   accuracy.mayStopSharing = !command.keepsSettings;
   accuracy.expectedSamples = dial.expectedSamples;
   accuracy.earlierLooks = dial.earlierLooks;
-  if (command.timeLimit) return accuracy;
+  accuracy.sharesApart = command.maxPasses > 0;
+  if (command.timeLimit || command.maxPasses > 0) return accuracy;
   accuracy.stopsForLikelyBias = dial.mayRaisePhotons;
   accuracy.rivalSamples = dial.rivalSamples;
   return accuracy;
@@ -106,20 +108,42 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   return RenderInPasses(job, options, rule);
 }
 
+std::vector<std::string> NotCovered(const RenderSetup& setup, std::int64_t footprintSamples) {
+  std::vector<std::string> phrases;
+  if (const auto limits = setup.integrator->Certification(*setup.scene))
+    phrases = limits->notCovered;
+  if (setup.scene->Features().Needs(Feature::Filtering))
+    phrases.push_back("the blur of textures and bumps, which are filtered for " +
+                      std::to_string(footprintSamples) + " samples a pixel (--footprint-spp)");
+  return phrases;
+}
+
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
-                                         const RenderSetup& setup, std::int64_t footprintSamples) {
+                                         std::vector<std::string> notCovered) {
   if (!films.corrections || !result.noise) return std::nullopt;
   std::optional<Certificate> certificate = Certify(*films.corrections, result.levels, *result.noise,
                                                    CertificateGoal::ForNoise(*result.noise));
   if (!certificate) return certificate;
   certificate->sharing = result.render.sharingBias;
-  if (const auto limits = setup.integrator->Certification(*setup.scene))
-    certificate->notCovered = limits->notCovered;
-  if (setup.scene->Features().Needs(Feature::Filtering))
-    certificate->notCovered.push_back("the blur of textures and bumps, which are filtered for " +
-                                      std::to_string(footprintSamples) +
-                                      " samples a pixel (--footprint-spp)");
+  certificate->notCovered = std::move(notCovered);
   return certificate;
+}
+
+std::vector<std::string> UnseenLight(const RenderCommand& command, const RenderSetup& setup) {
+  std::vector<std::string> lights;
+  if (command.accuracy) lights = setup.integrator->UnseenLight(*setup.scene);
+  if (command.dial && command.dial->lackingShare > 0)
+    lights.push_back(Format("about %.0f %% of the light that exphotonmap finds",
+                            100 * command.dial->lackingShare));
+  return lights;
+}
+
+void WarnOfUnseenLight(const std::vector<std::string>& lights, const std::string& integrator,
+                       Log& log) {
+  for (const std::string& light : lights)
+    log.Warning("the error does not contain " + light + ", because integrator \"" + integrator +
+                    "\" does not find it",
+                {}, "--integrator exphotonmap finds this light");
 }
 
 void ReportCertificate(const std::optional<Certificate>& certificate, Log& log) {
@@ -143,8 +167,15 @@ void CheckIntegrator(const RenderCommand& command, const RenderSetup& setup) {
 
 PicturePasses PassesOf(const RenderCommand& command) {
   if (command.asTwoHalves) return {PicturePasses::Kind::TwoHalves, 2, 0};
-  if (!command.targetError) return {};
-  return {PicturePasses::Kind::TargetError, command.maxPasses, *command.targetError};
+  if (!command.targetError && !command.accuracy) return {};
+  PicturePasses passes{PicturePasses::Kind::TargetError, command.maxPasses,
+                       command.targetError.value_or(0)};
+  if (!command.accuracy) return passes;
+  const DialChoice& dial = *command.dial;
+  passes.kind = PicturePasses::Kind::Accuracy;
+  passes.accuracy = {*command.accuracy, dial.biasShare, BoundOf(dial.omitted),
+                     command.certifies ? command.certifiedShare : 0};
+  return passes;
 }
 
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha) {

@@ -34,9 +34,18 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
 
 // Returns the certificate of a picture. A picture that was stopped has the complete passes, and so
 // has its certificate. Returns nullopt if the command asks for none, or if fewer than two groups of
-// passes are complete. `footprintSamples` is FootprintSamples of the render.
+// passes are complete.
 std::optional<Certificate> CertificateOf(const PictureFilms& films, const PassesResult& result,
-                                         const RenderSetup& setup, std::int64_t footprintSamples);
+                                         std::vector<std::string> notCovered);
+
+// Returns phrases for what certificates of the scene do not cover. `footprintSamples` is
+// FootprintSamples of the render.
+std::vector<std::string> NotCovered(const RenderSetup& setup, std::int64_t footprintSamples);
+
+// Returns phrases for light that neither a picture for an accuracy nor its error contains.
+std::vector<std::string> UnseenLight(const RenderCommand& command, const RenderSetup& setup);
+void WarnOfUnseenLight(const std::vector<std::string>& lights, const std::string& integrator,
+                       Log& log);
 
 // Prints the certificate, or that there is none.
 void ReportCertificate(const std::optional<Certificate>& certificate, Log& log);

@@ -157,6 +157,10 @@ class Merge {
     WarnOfLayers();
     PictureFilms films(parts_.Layout().full, parts_.Layout().crop, parts_.Layout().aovs,
                        record_.passes.kind == PicturePasses::Kind::TwoHalves);
+    const PicturePasses::Accuracy& accuracy = record_.passes.accuracy;
+    if (accuracy.correctedShare > 0)
+      films.corrections =
+          std::make_unique<Corrections>(parts_.Layout().crop, accuracy.correctedShare);
     Statistics statistics;
     const PassesResult result = MergeInto(&films, &statistics, &threads);
     RunRecord run(record_.scene, statistics);
@@ -165,8 +169,11 @@ class Merge {
       run.cpuSeconds += phase.cpuSeconds;
     }
     Fill(result, &run);
+    run.certificate = CertificateOf(films, result, record_.notCovered);
     run.threads = threads.Count();
     if (record_.passes.kind != PicturePasses::Kind::Single) log_.Notice(StoppingText(run));
+    WarnOfUnseenLight(run.unseen, run.scene.integrator, log_);
+    if (films.corrections) ReportCertificate(run.certificate, log_);
     Write(run, MakeImage(films, result, record_.premultipliesAlpha), &statistics);
     run.wallSeconds += SecondsSoFar();
     run.cpuSeconds += ProcessCpuSeconds();
@@ -216,8 +223,10 @@ class Merge {
                     "the parts do not fit their filter \"" + record_.scene.filter + "\"");
     }
     const ShardMerge merge{parts_.Files(), parts_.Layout(), record_.passes, weights.get()};
-    const MergedFilms merged{
-        &films->film, films->aovs.get(), {films->halves[0].get(), films->halves[1].get()}};
+    const MergedFilms merged{&films->film,
+                             films->aovs.get(),
+                             {films->halves[0].get(), films->halves[1].get()},
+                             films->corrections.get()};
     return MergeShards(merge, merged,
                        {*statistics,
                         log_,
@@ -229,15 +238,13 @@ class Merge {
   void Fill(const PassesResult& result, RunRecord* run) const {
     run->seed = record_.seed;
     run->commandLine = options_.commandLine;
-    run->nonFiniteSamples = result.render.nonFiniteSamples;
-    run->samplesPerPixel = result.samplesPerPixel;
     run->footprintSamples = record_.footprintSamples;
-    run->passes = result.passes;
-    run->stoppedBy = StopReasonName(result.reason);
-    run->noise = result.noise;
-    run->noiseError = result.noiseError;
-    run->sharingBias = result.render.sharingBias;
+    run->choice = record_.choice;
+    run->omitted = record_.omitted;
+    run->unseen = record_.unseen;
+    RecordPasses(result, run);
     if (record_.passes.targetError > 0) run->targetError = record_.passes.targetError;
+    if (record_.passes.accuracy.error > 0) run->accuracy = record_.passes.accuracy.error;
     run->aovs = record_.aovs;
     run->renderSeconds = run->wallSeconds + SecondsSoFar();
   }

@@ -21,6 +21,14 @@ void TransferPartTexts(ByteArchive* archive, std::vector<std::string>* texts) {
   for (std::string& text : *texts) archive->Text(&text);
 }
 
+void TransferOmissions(ByteArchive* archive, std::vector<OmittedEffect>* omitted) {
+  omitted->resize(archive->Count(omitted->size(), 24));
+  for (OmittedEffect& effect : *omitted) {
+    archive->Text(&effect.name);
+    archive->Values(&effect.bound, &effect.time);
+  }
+}
+
 void TransferParameters(ByteArchive* archive, ParamSet* set) {
   std::vector<ParsedParam> all = set->All();
   all.resize(archive->Count(all.size(), 32));
@@ -48,7 +56,13 @@ PartRecord::PartRecord(const RenderCommand& command, const RenderSetup& setup, c
       cameraDepth(setup.integrator->DepthLimits().camera),
       gatherDepth(setup.integrator->DepthLimits().gather),
       filter(setup.filterParameters),
-      messages(log.Messages()) {}
+      messages(log.Messages()) {
+  if (!command.dial) return;
+  choice = command.dial->text;
+  omitted = command.dial->omitted;
+  unseen = UnseenLight(command, setup);
+  if (command.certifies) notCovered = NotCovered(setup, footprintSamples);
+}
 
 void PartRecord::Transfer(ByteArchive* archive) {
   scene.Transfer(archive);
@@ -61,7 +75,10 @@ void PartRecord::Transfer(ByteArchive* archive) {
   archive->Text(&cameraDepth);
   archive->Text(&gatherDepth);
   TransferParameters(archive, &filter);
-  TransferPartTexts(archive, &messages);
+  archive->Text(&choice);
+  TransferOmissions(archive, &omitted);
+  for (std::vector<std::string>* texts : {&notCovered, &unseen, &messages})
+    TransferPartTexts(archive, texts);
 }
 
 std::string PartName(const Shard& shard) {

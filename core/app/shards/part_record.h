@@ -28,6 +28,11 @@ struct PartRecord {
   bool premultipliesAlpha = true, asHalf = true, isReproducible = false;
   std::string cameraDepth, gatherDepth;  // of DepthParameters
   ParamSet filter;
+  // Of a picture for an accuracy: what was chosen and left out, and phrases for what its
+  // certificate does not cover and its error does not contain.
+  std::string choice;
+  std::vector<OmittedEffect> omitted;
+  std::vector<std::string> notCovered, unseen;
   std::vector<std::string> messages;
 };
 

@@ -20,6 +20,8 @@ void Move(std::vector<double>* from, std::vector<double>* to) {
 }
 
 constexpr std::int64_t kMostCounted = std::int64_t(1) << 50;  // rays, or samples
+bool IsCount(std::int64_t rays) { return rays >= 0 && rays <= kMostCounted; }
+
 constexpr const char* kCountSection = "corrections";
 constexpr const char* kCurrentSection = "corrections of the pass";
 
@@ -75,6 +77,13 @@ void Corrections::ClearPixel(Point2i pixel) {
   for (std::vector<double>* sums : {&current_, &currentSharing_})
     if (!sums->empty()) std::fill_n(sums->begin() + std::ptrdiff_t(3 * at), 3, 0.);
   rayCount_[at] = gatherRays_[at] = 0;
+}
+
+void Corrections::ClearPass() {
+  for (std::vector<double>* sums : {&current_, &currentSharing_})
+    std::fill(sums->begin(), sums->end(), 0.);
+  std::fill(rayCount_.begin(), rayCount_.end(), 0);
+  std::fill(gatherRays_.begin(), gatherRays_.end(), 0);
 }
 
 void Corrections::KeepSharingApart() { currentSharing_.assign(current_.size(), 0); }
@@ -143,9 +152,17 @@ void Corrections::TransferPass(ByteArchive* archive) {
   TransferNumbers(archive, currentSharing_.size(), false, &currentSharing_);
   TransferNumbers(archive, pixels, false, &rayCount_);
   TransferNumbers(archive, pixels, false, &gatherRays_);
-  const auto isCount = [](std::int64_t rays) { return rays >= 0 && rays <= kMostCounted; };
-  if (!std::ranges::all_of(rayCount_, isCount) || !std::ranges::all_of(gatherRays_, isCount))
+  if (!std::ranges::all_of(rayCount_, IsCount) || !std::ranges::all_of(gatherRays_, IsCount))
     throw ArchiveError("its numbers of gather rays are impossible");
+}
+
+void Corrections::TransferPixel(ByteArchive* archive, Point2i pixel) {
+  const std::size_t at = IndexOf(pixel);
+  double* const sums = current_.data() + 3 * at;
+  archive->Values(&sums[0], &sums[1], &sums[2], &rayCount_[at], &gatherRays_[at]);
+  if (!IsCount(rayCount_[at]) || !IsCount(gatherRays_[at]) || !std::isfinite(sums[0]) ||
+      !std::isfinite(sums[1]) || !std::isfinite(sums[2]))
+    throw ArchiveError("its corrections are impossible");
 }
 
 void Corrections::TransferGroup(ByteArchive* archive, Group* group) {

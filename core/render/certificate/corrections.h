@@ -35,6 +35,7 @@ class Corrections {
   // Adds own light minus shared light of such a sample (core/render/sharing/shared_gathers.h).
   void AddSharing(Point2i pixel, const Spectrum& correction, Real weight);
   void ClearPixel(Point2i pixel);  // removes corrections of the current pass
+  void ClearPass();                // the same for all pixels
   // Keeps these parts apart, so that SumsOf can leave them out. Must be called before all passes.
   void KeepSharingApart();
   // States whether the picture shares gathers. Without sharing, SumsOf leaves these parts out.
@@ -69,6 +70,9 @@ class Corrections {
   // the state has corrections of another picture.
   void Save(StateWriter* writer);
   void Load(const StateFile& file);
+  // Saves or loads the current pass at a pixel inside of the crop window, without parts that are
+  // kept apart.
+  void TransferPixel(ByteArchive* archive, Point2i pixel);
 
  private:
   std::size_t IndexOf(Point2i pixel) const {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "core/render/passes/error_watch.h"
+#include "core/render/passes/accuracy/error_watch.h"
 #include "core/render/passes/pass_parts.h"
 
 namespace exphoton {

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/base/format.h"
-#include "core/render/passes/error_watch.h"
+#include "core/render/passes/accuracy/error_watch.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_plan.h"
 #include "core/render/passes/photons/photon_sets.h"
@@ -48,13 +48,14 @@ class Passes {
         forecasts_{GroupForecast(job.film.Crop(), sharesGathers_),
                    GroupForecast(job.film.Crop(), sharesGathers_)},
         plan_({rule.targetError, rule.timeLimit, rule.maxSamples, rule.passSamples,
-               rule.accuracy ? rule.accuracy->firstSamples : 0,
+               rule.accuracy && rule.passSamples == 0 ? rule.accuracy->firstSamples : 0,
                rule.accuracy ? rule.accuracy->photonSamples : 0, sharesGathers_}),
         // A certificate needs the light of each sample before and after sharing, pass by pass.
         hasBatches_(rule.passSamples == 0 && !rule.accuracy && !options_.corrections),
-        photons_(job.film.Crop(), job.integrator.FillsSignedLight() &&
-                                      (rule.accuracy || (rule.targetError && hasBatches_))),
-        continuesSequence_(job.sampler.IsProgressive() && (hasBatches_ || rule.accuracy)),
+        hasRelatedPasses_(rule.passSamples == 0 && (rule.accuracy || hasBatches_)),
+        photons_(job.film.Crop(), hasRelatedPasses_ && job.integrator.FillsSignedLight() &&
+                                      (rule.accuracy || rule.targetError)),
+        continuesSequence_(hasRelatedPasses_ && job.sampler.IsProgressive()),
         error_({job, &parts_, &sum_, &renderer_}, rule.accuracy,
                continuesSequence_ ? GroupSamples::OneSequence : GroupSamples::Independent) {
     // The noise for an accuracy is estimated as if the groups were independent. It is rather too
@@ -315,7 +316,8 @@ class Passes {
   PassSum sum_;
   std::array<GroupForecast, 2> forecasts_;  // of the first groups
   PassPlan plan_;
-  const bool hasBatches_;  // whether the passes of a group share their gathers together
+  const bool hasBatches_;        // whether the passes of a group share their gathers together
+  const bool hasRelatedPasses_;  // whether passes may continue a sequence or share photons
   PhotonSets photons_;
   const bool continuesSequence_;  // whether all passes continue one sequence of samples
   ErrorWatch error_;

@@ -35,6 +35,9 @@ struct StoppingRule {
     // Whether the picture also stops where its bias is likely to be too large, to begin again.
     bool stopsForLikelyBias = false;
     int earlierLooks = 0;  // at renders that this one replaces; all share the 5 %
+    // Whether each pass shares its gathers alone, so that shards can render it. The picture without
+    // sharing is then not known, and each pass shows the bias of its own sharing.
+    bool sharesApart = false;
     // What a rival costs, in samples per pixel of this picture. The picture stops if it is sure to
     // need far more of them (AccuracyRule::IsDearerThan).
     double rivalSamples = std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 
 #include "core/render/pass_buffers.h"
 #include "core/render/passes/pass_parts.h"
+#include "core/render/shards/merged_accuracy.h"
 #include "core/render/shards/shard_statistics.h"
 #include "core/render/state/checkpoints.h"
 
@@ -75,7 +76,7 @@ class Merger {
       std::erase_if(open, [&](const ShardTile& tile) {
         return tile.bounds.y1 <= loaded || tile.bounds.y0 >= end;
       });
-      ForTiles(pass, "gathers of tile", std::move(open),
+      ForTiles(pass, kGatherSection, std::move(open),
                [&](const ShardTile& tile, ByteArchive* archive) {
                  TransferTileGathers(archive, tile, buffers->Gathers());
                });
@@ -87,15 +88,23 @@ class Merger {
   void AddPass(int pass, Film* film, AovFilm* aovs) {
     const ShardLayout& layout = merge_.layout;
     const PassBuffers::Layout inner{layout.isSplatted ? merge_.splatWeights : nullptr,
-                                    layout.isShared, layout.samplesPerPixel, merge_.sharingMemory};
+                                    layout.isShared,
+                                    layout.samplesPerPixel,
+                                    merge_.sharingMemory,
+                                    nullptr,
+                                    films_.corrections};
     PassBuffers buffers(inner, film, aovs);
     const std::vector<ShardTile> tiles = ShardTiles(PassBuffers::Rendered(inner, *film));
-    ForTiles(pass, "tile", tiles, [&](const ShardTile& tile, ByteArchive* archive) {
+    ForTiles(pass, kTileSection, tiles, [&](const ShardTile& tile, ByteArchive* archive) {
       TransferTileFilm(archive, tile, film, aovs);
     });
     if (aovs && aovs->NeedsTime())
-      ForTiles(pass, "times of tile", tiles, [&](const ShardTile& tile, ByteArchive* archive) {
+      ForTiles(pass, kTimeSection, tiles, [&](const ShardTile& tile, ByteArchive* archive) {
         TransferTileTimes(archive, tile, aovs);
+      });
+    if (films_.corrections)
+      ForTiles(pass, kCorrectionSection, tiles, [&](const ShardTile& tile, ByteArchive* archive) {
+        TransferTileCorrections(archive, tile, films_.corrections);
       });
     if (buffers.Splats()) LoadSplats(pass, buffers.Splats());
     if (buffers.Bands()) AddSharedLight(pass, tiles, &buffers);
@@ -104,28 +113,41 @@ class Merger {
     totals_.AddLight(*film, layout.samplesPerPixel);
   }
 
+  // Returns why the passes so far are the whole picture; nullopt: they are not. A result comes
+  // before a limit.
+  static std::optional<StopReason> ReasonOf(const PassSum& sum,
+                                            const std::optional<MergedAccuracy>& accuracy) {
+    const auto reached = accuracy ? accuracy->Reason() : std::nullopt;
+    return reached ? reached : sum.Reason();
+  }
+
   // Adds pass after pass, and stops where a render on one machine would stop.
   void AddPasses() {
-    const bool isTarget = merge_.passes.kind == PicturePasses::Kind::TargetError;
+    const PicturePasses& passes = merge_.passes;
     const std::int64_t samples = merge_.layout.samplesPerPixel;
     Film& film = *films_.film;
     std::optional<Film> one;
-    if (isTarget) one.emplace(film.Full(), film.Crop());
+    if (passes.HasRule()) one.emplace(film.Full(), film.Crop());
     std::unique_ptr<AovFilm> aovs;
     if (films_.aovs) aovs = std::make_unique<AovFilm>(film.Crop(), films_.aovs->Wanted());
-    PassSum::Limits limits{{}, merge_.passes.count * samples};
-    if (isTarget) limits.targetError = merge_.passes.targetError;
+    PassSum::Limits limits{{}, passes.count * samples};
+    if (passes.kind == PicturePasses::Kind::TargetError) limits.targetError = passes.targetError;
     PassSum sum(&film, limits);
-    while (!sum.Reason()) {
+    std::optional<MergedAccuracy> accuracy;
+    if (passes.kind == PicturePasses::Kind::Accuracy)
+      accuracy.emplace(passes.accuracy, films_.corrections);
+    for (std::optional<StopReason> reason; !reason; reason = ReasonOf(sum, accuracy)) {
       const int pass = sum.Passes();
-      Film* const passFilm = isTarget ? &*one : films_.halves[pass];
+      Film* const passFilm = passes.HasRule() ? &*one : films_.halves[pass];
       passFilm->Clear();
       if (aovs) aovs->Clear();
       AddPass(pass, passFilm, aovs.get());
       sum.Add(*passFilm, samples, pass);
+      if (accuracy) accuracy->EndPass(sum, totals_, samples, summary_.log);
       if (aovs) films_.aovs->Add(*aovs);
     }
-    result_.reason = *sum.Reason();
+    result_.reason = *ReasonOf(sum, accuracy);
+    if (accuracy) accuracy->Describe(sum, &result_);
     sum.Describe(films_.aovs && films_.aovs->Wanted().Has(Aov::Variance), &result_);
   }
 

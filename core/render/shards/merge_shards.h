@@ -27,6 +27,8 @@ struct MergedFilms {
   Film* film;
   AovFilm* aovs = nullptr;  // null: none
   Film* halves[2] = {};     // for Kind::TwoHalves
+  // For Kind::Accuracy, with the share of PicturePasses. Null: the integrator has no bias.
+  Corrections* corrections = nullptr;
 };
 
 // Fills the films. `summary` receives statistics and warnings. Throws Error(File) if a section of a

@@ -4,10 +4,32 @@
 #include "core/render/shards/picture_passes.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/render/certificate/corrections.h"
 #include "core/render/passes/pass_parts.h"
 
 namespace exphoton {
+namespace {
+
+bool IsPossible(const PicturePasses::Accuracy& accuracy) {
+  return accuracy.error > 0 && accuracy.omitted >= 0 && accuracy.omitted < accuracy.error &&
+         accuracy.biasShare >= 0 && accuracy.biasShare <= 1 && accuracy.correctedShare >= 0 &&
+         std::isfinite(accuracy.error) && std::isfinite(accuracy.correctedShare);
+}
+
+}  // namespace
+
+void PicturePasses::Transfer(ByteArchive* archive) {
+  int number = int(kind);
+  archive->Values(&number, &count, &targetError);
+  archive->Values(&accuracy.error, &accuracy.biasShare, &accuracy.omitted,
+                  &accuracy.correctedShare);
+  const bool isKnown = number >= 0 && number <= int(Kind::Accuracy) && count >= 1;
+  if (!isKnown || (Kind(number) == Kind::Accuracy && !IsPossible(accuracy)))
+    throw ArchiveError("its passes contradict each other");
+  kind = Kind(number);
+}
 
 PicturePasses::Pass PicturePasses::Get(int number, std::uint64_t seed,
                                        const Sampler& sampler) const {
@@ -24,6 +46,7 @@ PicturePasses::Pass PicturePasses::Get(int number, std::uint64_t seed,
       break;
     }
     case Kind::TargetError:
+    case Kind::Accuracy:
       pass.pass = PatternPass(seed, group, 0, samples);
       break;
   }
@@ -39,6 +62,7 @@ RenderResult RenderShard(const RenderJob& job, const RenderOptions& options,
     const PicturePasses::Pass pass = passes.Get(number, options.seed, job.sampler);
     job.film.Clear();
     if (options.aovs) options.aovs->Clear();
+    if (options.corrections) options.corrections->ClearPass();
     if (!renderer.Run(pass.pass, *pass.sampler, &job.film)) break;
   }
   return renderer.Finish();

@@ -11,18 +11,20 @@
 namespace exphoton {
 
 struct PicturePasses {
-  enum class Kind { Single, TwoHalves, TargetError };
+  enum class Kind { Single, TwoHalves, TargetError, Accuracy };
+  // The rule of Kind::Accuracy, as in AccuracyRule.
+  struct Accuracy {
+    double error = 0, biasShare = 0, omitted = 0;
+    double correctedShare = 0;  // of the gather rays; 0: the integrator has no bias
+  };
   Kind kind = Kind::Single;
   int count = 1;
   double targetError = 0;  // noise part of relMSE, for Kind::TargetError
+  Accuracy accuracy{};
 
-  void Transfer(ByteArchive* archive) {  // saves or loads
-    int number = int(kind);
-    archive->Values(&number, &count, &targetError);
-    if (number < 0 || number > int(Kind::TargetError) || count < 1)
-      throw ArchiveError("its passes contradict each other");
-    kind = Kind(number);
-  }
+  // Returns whether a rule decides how many of the passes belong to the picture.
+  bool HasRule() const { return kind == Kind::TargetError || kind == Kind::Accuracy; }
+  void Transfer(ByteArchive* archive);  // saves or loads
 
   struct Pass {
     RenderPass pass;

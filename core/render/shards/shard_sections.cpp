@@ -61,6 +61,12 @@ void TransferTileFilm(ByteArchive* archive, const ShardTile& tile, Film* film, A
   });
 }
 
+void TransferTileCorrections(ByteArchive* archive, const ShardTile& tile,
+                             Corrections* corrections) {
+  ForPixels(tile.bounds, corrections->Crop(),
+            [&](Point2i pixel) { corrections->TransferPixel(archive, pixel); });
+}
+
 void TransferTileTimes(ByteArchive* archive, const ShardTile& tile, AovFilm* aovs) {
   ForPixels(tile.bounds, aovs->Crop(), [&](Point2i pixel) { aovs->TransferTime(archive, pixel); });
 }

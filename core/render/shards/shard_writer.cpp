@@ -13,20 +13,28 @@ void ShardWriter::BeginPass(ShardLayout layout) {
   SaveSection(kShardSection, layout, file_);
 }
 
-void ShardWriter::AddTile(const ShardTile& tile, Film* film, AovFilm* aovs,
-                          GatherFragments* gathers) {
-  ByteArchive sums;
-  TransferTileFilm(&sums, tile, film, aovs);
-  file_->Add(TileSection(pass_, "tile", tile), sums.Take());
-  if (aovs && aovs->NeedsTime()) {
-    ByteArchive times;
-    TransferTileTimes(&times, tile, aovs);
-    file_->Add(TileSection(pass_, "times of tile", tile), times.Take());
-  }
-  if (!gathers) return;
-  ByteArchive gathered;
-  TransferTileGathers(&gathered, tile, gathers);
-  file_->Add(TileSection(pass_, "gathers of tile", tile), gathered.Take());
+template <class Transfer>
+void ShardWriter::AddTileSection(const char* what, const ShardTile& tile,
+                                 const Transfer& transfer) {
+  ByteArchive section;
+  transfer(&section);
+  file_->Add(TileSection(pass_, what, tile), section.Take());
+}
+
+void ShardWriter::AddTile(const ShardTile& tile, Film* film, const TileParts& parts) {
+  AddTileSection(kTileSection, tile,
+                 [&](ByteArchive* archive) { TransferTileFilm(archive, tile, film, parts.aovs); });
+  if (parts.aovs && parts.aovs->NeedsTime())
+    AddTileSection(kTimeSection, tile,
+                   [&](ByteArchive* archive) { TransferTileTimes(archive, tile, parts.aovs); });
+  if (parts.gathers)
+    AddTileSection(kGatherSection, tile, [&](ByteArchive* archive) {
+      TransferTileGathers(archive, tile, parts.gathers);
+    });
+  if (parts.corrections)
+    AddTileSection(kCorrectionSection, tile, [&](ByteArchive* archive) {
+      TransferTileCorrections(archive, tile, parts.corrections);
+    });
 }
 
 void ShardWriter::AddSplats(const SplatBuffer& splats, const PixelBounds& crop) {

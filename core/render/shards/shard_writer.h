@@ -21,13 +21,22 @@ class ShardWriter {
 
   // `layout` need not have the shard and the number of passes.
   void BeginPass(ShardLayout layout);
-  // The AOVs and the gathers may be null.
-  void AddTile(const ShardTile& tile, Film* film, AovFilm* aovs, GatherFragments* gathers);
+  // What a tile of a pass has besides its light. Each part may be null.
+  struct TileParts {
+    AovFilm* aovs = nullptr;
+    GatherFragments* gathers = nullptr;
+    Corrections* corrections = nullptr;
+  };
+  void AddTile(const ShardTile& tile, Film* film, const TileParts& parts);
   void AddSplats(const SplatBuffer& splats, const PixelBounds& crop);
   // Adds counts and times of all passes so far.
   void EndPass(const Statistics& statistics, RenderTotals totals, NonFiniteLog* nonFinite);
 
  private:
+  // Adds a section of a tile, which `transfer` saves.
+  template <class Transfer>
+  void AddTileSection(const char* what, const ShardTile& tile, const Transfer& transfer);
+
   Shard shard_;
   int passes_, pass_ = -1;
   StateWriter* file_;

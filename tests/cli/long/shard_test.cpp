@@ -128,6 +128,53 @@ TEST_F(Shards, StopAfterThePassesThatOneMachineNeeds) {
   EXPECT_EQ(Read("merged.exr"), one);
 }
 
+// Passes of 3 shards of a picture for an accuracy, and those of one process.
+TEST_F(Shards, APictureForAnAccuracyHasTheBytesOfOneMachine) {
+  const Names scene{"scene.pbrt",   "--reproducible", "--nthreads",   "2", "--accuracy", "10%",
+                    "--resolution", "40x30",          "--max-passes", "6"};
+  const auto render = [&](const Names& kind, const Names& where) {
+    const ProgramResult result = Run(scene + kind + where);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.err;
+  };
+  const auto error = [](const std::string& messages) {
+    const std::size_t at = messages.find("the error lies below");
+    return at == messages.npos ? "" : messages.substr(at, messages.find('\n', at) - at);
+  };
+  const Names kinds[] = {
+      {"--integrator", "exphotonmap", "--set", "SurfaceIntegrator.indirectphotons=10000", "--aov",
+       "variance,indirect"},
+      {"--integrator", "exphotonmap", "--set", "SurfaceIntegrator.indirectphotons=10000",
+       "--filter", "mitchell", "--cropwindow", ".2,.9,.1,.8"},
+      {"--integrator", "path"},
+  };
+  for (const Names& kind : kinds) {
+    const std::string messages = render(kind, {"-o", "one.exr", "--stats-json", "one.json"});
+    for (int index = 1; index <= 3; ++index)
+      render(kind, {"--shard", std::to_string(index) + "/3", "-o", "parts/"});
+    const ProgramResult result = Merge({"--stats-json", "merged.json"});
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(Read("merged.exr"), Read("one.exr")) << testing::PrintToString(kind);
+    EXPECT_NE(error(messages), "") << messages;
+    EXPECT_EQ(error(result.err), error(messages));
+    // The parts have 6 passes, of which the picture takes fewer.
+    ExpectIn("\"stoppedBy\":\"accuracy\"", Read("merged.json"));
+    EXPECT_EQ(Read("merged.json").find("\"passes\":6"), std::string::npos);
+    const bool hasCertificate = kind[1] != "path";
+    EXPECT_EQ(result.err.find("corrected gather rays") != std::string::npos, hasCertificate);
+    for (int index = 1; index <= 3; ++index) remove(Path(PartName(index, 3)).c_str());
+  }
+}
+
+TEST_F(Shards, TooFewPassesForAnAccuracyAreAnnounced) {
+  const Names hard{"scene.pbrt", "--nthreads",   "2", "--integrator", "path",   "--accuracy",
+                   ".05%",       "--max-passes", "2", "-o",           "one.exr"};
+  const ProgramResult result = Run(hard);
+  EXPECT_EQ(result.status, 0) << result.err;
+  ExpectIn("--max-passes 2 is likely to end the picture before its accuracy of 0.05%", result.err);
+  ExpectIn("which is not the accuracy of 0.05 %: the limit of samples came first", result.err);
+}
+
 TEST_F(Shards, APartThatExistsIsSkipped) {
   RenderParts(2);
   const std::string part = Read(PartName(1, 2));
@@ -277,6 +324,8 @@ TEST_F(Shards, UsageErrorsSayWhatToDo) {
     expect({"--shard", wrong, "-o", "parts/"}, "--shard takes I/N");
   expect(shard + Names{"--time-limit", "5s"}, "--shard and --time-limit exclude each other");
   expect(shard + Names{"--target-error", ".1"}, "needs --max-passes N");
+  expect(shard + Names{"--accuracy", "5%"}, "--shard with --accuracy needs --max-passes N");
+  expect({"--accuracy", "5%", "--max-passes", "1"}, "--accuracy needs --max-passes 2 at least");
   expect(shard + Names{"--max-passes", "3"}, "--max-passes needs --target-error");
   expect({"--target-error", ".1", "--max-passes", "3", "--time-limit", "5s"}, "exclude each other");
   expect(shard + Names{"--resume"}, "--shard excludes --resume");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/render/passes/accuracy_rule.h"
+#include "core/render/passes/accuracy/accuracy_rule.h"
 
 #include <gtest/gtest.h>
 

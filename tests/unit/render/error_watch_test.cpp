@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests render passes of a room that share their gathers, one by one, while ErrorWatch looks
 // at their error.
-#include "core/render/passes/error_watch.h"
+#include "core/render/passes/accuracy/error_watch.h"
 
 #include <gtest/gtest.h>
 

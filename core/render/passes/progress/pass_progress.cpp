@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/base/format.h"
-#include "core/render/passes/accuracy_rule.h"
+#include "core/render/passes/accuracy/accuracy_rule.h"
 
 namespace exphoton {
 namespace {

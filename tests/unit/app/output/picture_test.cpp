@@ -32,7 +32,7 @@ std::optional<Certificate> CertificateAfter(int passes, bool isComplete,
     result.noise = .01;
     result.levels.assign(std::size_t(3 * kCertifiedSide * kCertifiedSide), 1);
   }
-  return CertificateOf(films, result, *scene.setup, 4);
+  return CertificateOf(films, result, NotCovered(*scene.setup, 4));
 }
 
 // After Ctrl-C, the picture has the complete passes only.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-#include "core/render/passes/error_watch.h"
+#include "core/render/passes/accuracy/error_watch.h"
 
 #include <cmath>
 #include <numeric>
@@ -7,6 +7,7 @@
 
 #include "core/base/format.h"
 #include "core/render/certificate/corrections.h"
+#include "core/render/passes/accuracy/accuracy_look.h"
 #include "core/render/render_totals.h"
 #include "core/render/sharing/sharing_bands.h"
 
@@ -45,7 +46,9 @@ ErrorWatch::ErrorWatch(const Picture& picture,
                        const std::optional<StoppingRule::Accuracy>& accuracy, GroupSamples samples)
     : picture_(picture),
       samples_(samples),
-      unshared_(UnsharedPicture::Follow(picture.job, picture.parts, picture.sum)) {
+      unshared_(accuracy && accuracy->sharesApart
+                    ? nullptr
+                    : UnsharedPicture::Follow(picture.job, picture.parts, picture.sum)) {
   if (!accuracy) return;
   rule_.emplace(accuracy->error, accuracy->biasShare, accuracy->omitted);
   rule_->CountLooks(accuracy->earlierLooks);
@@ -106,22 +109,11 @@ void ErrorWatch::FitJointly() {
 std::optional<Certificate> ErrorWatch::LookAt(const PassSum& sum, const NoiseOfPhotons& noise,
                                               const std::optional<SharingBias>& sharing,
                                               AccuracyRule* rule) const {
-  std::optional<Certificate> certificate;
-  if (OfMaps()) certificate = Certify(*OfMaps(), sum.Levels(), *sum.Noise(), rule->NextGoal());
-  if (certificate) certificate->sharing = sharing;
   std::optional<Certificate> ofMaps;
   if (sharing && stopsForLikelyBias_) ofMaps = CertifyMaps(sum, rule->NextGoal());
-  const double noiseError = sum.NoiseError();
-  rule->Look({*sum.Noise(), noiseError, noise.fixed, certificate ? &*certificate : nullptr,
-              sum.NoiseBetweenGroups(), sum.NoiseFreedom(), ofMaps ? &*ofMaps : nullptr,
-              noise.soFar});
-  picture_.job.log.Verbose(
-      Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
-             "error below %.3g %%",
-             static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), noiseError,
-             certificate ? certificate->LowerBias() : 0, certificate ? certificate->UpperBias() : 0,
-             100 * std::sqrt(rule->Upper())));
-  return certificate;
+  return LookAtError(
+      {sum, OfMaps(), sharing, noise.fixed, noise.soFar, ofMaps ? &*ofMaps : nullptr}, rule,
+      picture_.job.log);
 }
 
 // Returns the certificate without the bias of shared gathers, which photons do not change. Where

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "core/render/passes/accuracy_rule.h"
+#include "core/render/passes/accuracy/accuracy_rule.h"
 #include "core/render/passes/pass_parts.h"
 #include "core/render/passes/pass_sum.h"
 #include "core/render/passes/render_passes.h"
