@@ -169,14 +169,18 @@ class Placement {
       for (Vector3& gradient : record->translation) gradient *= wanted / radius;
   }
 
-  // Follows the camera ray through the pixel's centre, with one random specular lobe at each point.
+  // Follows a camera ray through the pixel, with one random specular lobe at each point. Rays
+  // through the centres of pixels would meet the edges of a room exactly if its camera is on its
+  // axis. A point on an edge lies in the plane of the other wall, so its rays do not meet this
+  // wall.
   void FindPoints(Point2i pixel, LiContext& li, std::vector<CachePoint>* points) const {
+    RandomStream random = li.Stream(kSpecularStream);
     CameraSample sample;
-    sample.film = {Real(pixel.x) + Real(.5), Real(pixel.y) + Real(.5)};
+    sample.film.x = Real(pixel.x) + random.Uniform();
+    sample.film.y = Real(pixel.y) + random.Uniform();
     sample.lens = {Real(.5), Real(.5)};
     if (scene_.Features().Needs(Feature::Motion)) sample.time = Real(.5);
     RayDifferential ray = context_.camera->GenerateRay(sample, true);
-    RandomStream random = li.Stream(kSpecularStream);
     for (int depth = 0;; ++depth) {
       const auto hit = li.Intersect(ray, depth == 0 ? RayKind::Camera : RayKind::Specular);
       if (!hit || !hit->material) return;

@@ -106,6 +106,25 @@ TEST_F(CompareTest, AnotherSeedPassesAndAnotherPaintFails) {
   }
 }
 
+TEST_F(CompareTest, EachReferenceMustBeARenderOfItsOwn) {
+  WriteRoom("room.pbrt", ".6");
+  for (const char* seed : {"1", "2", "3"})
+    ASSERT_EQ(Run({"room.pbrt", "--seed", seed, "-o", std::string(seed) + ".exr", "--float",
+                   "--two-halves"})
+                  .status,
+              0);
+  const auto more = [this](const std::string& name) {
+    return Run({"compare", "1.exr", "2.exr", "--z-test", "--more-reference", name});
+  };
+  EXPECT_EQ(more("3.exr").status, 0);
+  Write("copy.exr", Read("1.exr"));
+  for (const char* name : {"1.exr", "copy.exr", "2.exr"}) {
+    const ProgramResult result = more(name);
+    EXPECT_EQ(result.status, 2) << result.out;
+    ExpectIn("so the noise test would count them twice", result.err);
+  }
+}
+
 // Pixels of exphotonmap share the noise of photons and of shared gathers. Four references with
 // halves show it. tests/noise/compare_rates.py measures the rates with 100 seeds.
 TEST_F(CompareTest, KnowsTheNoiseThatPixelsShare) {

@@ -68,6 +68,7 @@ Json FromRun(const RunRow& row) {
                {"image", row.image},
                {"command", row.command}};
   if (!row.certificate.empty()) json["certificate"] = FromValues(row.certificate);
+  if (!row.warnings.empty()) json["warnings"] = row.warnings;
   if (row.IsOfTask())
     json.update({{"node", row.node}, {"processor", row.processor}, {"alone", row.isAlone}});
   return json;
@@ -103,6 +104,7 @@ RunRow ToRow(const Json& json) {
   row.certificate = ToValues(json.value("certificate", Json::object()));
   row.image = Text(json, "image");
   row.command = Text(json, "command");
+  row.warnings = json.value("warnings", std::vector<std::string>());
   row.node = Text(json, "node");
   row.processor = Text(json, "processor");
   row.isAlone = json.value("alone", false);
@@ -313,6 +315,19 @@ Results FromJson(const std::string& text) {
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(std::string("results.json cannot be read: ") + error.what());
   }
+}
+
+std::vector<std::string> WarningSet::Add(const std::vector<std::string>& warnings) {
+  std::vector<std::string> added;
+  for (const std::string& warning : warnings) {
+    std::string words = warning;
+    // Not every render states the standard error, in parentheses.
+    if (const std::size_t at = words.find(" ("), end = words.find(')', at); end < words.size())
+      words.erase(at, end + 1 - at);
+    std::erase_if(words, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+    if (known_.insert(words).second) added.push_back(warning);
+  }
+  return added;
 }
 
 std::string RowToJson(const RunRow& row) { return Written(FromRun(row)); }

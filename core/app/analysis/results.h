@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,8 +40,9 @@ struct RunRow {
   // The numbers of --certify: roots of parts of relMSE, block widths in pixels, and
   // blockBiasSquared. An infinite number is missing. Empty: the render has no certificate.
   NamedValues certificate;
-  std::string image, command;  // image: relative to the study's folder
-  bool hasMetrics = false;     // true if there is a reference
+  std::string image, command;         // image: relative to the study's folder
+  std::vector<std::string> warnings;  // of the render, each with its source line and hint
+  bool hasMetrics = false;            // true if there is a reference
   ImageDifference metrics;
   double flip = 0;
 
@@ -48,6 +50,17 @@ struct RunRow {
   double PhotonsStored() const;
   double PhotonPaths() const;
   bool IsOfTask() const { return !node.empty(); }
+};
+
+// WarningSet finds the warnings of several renders that are new. Warnings that differ in numbers
+// alone are the same.
+class WarningSet {
+ public:
+  // Adds the warnings of a render, and returns those that no render before it had.
+  std::vector<std::string> Add(const std::vector<std::string>& warnings);
+
+ private:
+  std::set<std::string> known_;
 };
 
 // Returns the measurements against the reference, with their names in result files.

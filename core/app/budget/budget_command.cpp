@@ -79,6 +79,8 @@ void MakeBudgetText(const std::vector<std::string>& arguments) {
   const RenderCommand command = ParseRenderCommand(RenderWords(raw), RenderMode::Render);
   const InterruptWatch watch;
   FileSource::Streams streams;
+  Log log(raw.isQuiet ? Log::Level::Quiet : Log::Level::Normal);
+  options.log = &log;
   PrintOut(BudgetText(raw.scene, MeasureBudget(command, options, &streams), options));
 }
 

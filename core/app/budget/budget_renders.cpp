@@ -32,7 +32,7 @@ class BudgetMeasurement {
       : command_(command),
         options_(options),
         scene_(command.scenes.front(), "exphoton budget", streams),
-        load_(scene_.Options(command)) {}
+        load_(LoadOptionsOf(command)) {}
 
   MeasuredBudget Run() {
     RenderScene();
@@ -49,6 +49,11 @@ class BudgetMeasurement {
     ErrorCause cause;
     LoadOptions load;
   };
+
+  LoadOptions LoadOptionsOf(const RenderCommand& command) {
+    scene_.ShowMessages(options_.log);
+    return scene_.Options(command);
+  }
 
   std::uint64_t Seed(Purpose purpose, std::size_t number) const {
     return HashKey({command_.seed, kBudgetSeed, std::uint64_t(purpose), number});

@@ -20,6 +20,7 @@ struct BudgetOptions {
   std::int64_t referenceSamples = 0;  // a pixel, by guidedpath; 0: a certificate is the measure
   int blockWidth = 0;                 // as in MakeBudget
   bool showsProgress = true;
+  Log* log = nullptr;  // receives the messages about the scene; null: they are not shown
 };
 
 // CPU seconds of one small picture, by the clock.

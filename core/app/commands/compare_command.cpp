@@ -228,6 +228,30 @@ Image ReadPremultiplied(const std::string& path) {
   return image;
 }
 
+// Each further reference must be another render. The same pixels again would hide their own noise.
+void CheckOthers(const CompareOptions& options, const std::vector<Image>& references,
+                 const std::string& name, const Image& picture, std::size_t first) {
+  const auto nameOf = [&](std::size_t i) {
+    return i == 0 ? options.reference : options.moreReferences[i - 1];
+  };
+  for (std::size_t i = first; i < references.size(); ++i)
+    if (AreIdentical(references[i], picture))
+      throw Error(ExitStatus::CommandLine,
+                  "\"" + name + "\" has the pixels of the reference \"" + nameOf(i) +
+                      "\", so the noise test would count them twice",
+                  {}, "--more-reference takes another render of the reference, by another --seed");
+}
+
+std::vector<Image> ReadReferences(const CompareOptions& options) {
+  std::vector<Image> references{ReadPremultiplied(options.reference)};
+  for (const std::string& name : options.moreReferences) {
+    Image image = ReadPremultiplied(name);
+    CheckOthers(options, references, name, image, 0);
+    references.push_back(std::move(image));
+  }
+  return references;
+}
+
 }  // namespace
 
 int RunCompare(const std::vector<std::string>& arguments) {
@@ -239,13 +263,12 @@ int RunCompare(const std::vector<std::string>& arguments) {
     LimitMemory(limits);
     const InterruptWatch watch(limits.seconds);
     CheckFiles(options);
-    std::vector<Image> references{ReadPremultiplied(options.reference)};
-    for (const std::string& name : options.moreReferences)
-      references.push_back(ReadPremultiplied(name));
+    const std::vector<Image> references = ReadReferences(options);
     std::vector<Comparison> all;
     std::string verdicts;
     for (const std::string& name : options.pictures) {
       const Image picture = ReadPremultiplied(name);
+      CheckOthers(options, references, name, picture, 1);
       all.push_back(Compare(options, references, name, picture));
       const Verdict verdict = Judge(all.back(), options.bounds);
       isSame &= verdict.isPass;

@@ -102,6 +102,7 @@ class FileRenderer {
   void WarnOfFewThreads(const ThreadPool& threads) const;
   bool RenderOne(const RenderSetup& setup);
   bool BeginsAgain(const PassesResult& result, const StateKeeper& keeper);
+  bool HasTimeForAnother() const;
   void RenderPart(const PartJob& part, const Begin& begin);
   RunRecord NewRecord(const RenderSetup& setup, const Statistics& statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
@@ -214,12 +215,20 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   return true;
 }
 
+// With a time limit, the next attempt must have time for two groups of passes, without which its
+// error would not be known. The photons alone take four times as long.
+bool FileRenderer::HasTimeForAnother() const {
+  constexpr double kMostSpent = 1 / 3.;  // of the time limit
+  return !command_.timeLimit || ElapsedSince(begin_->wall) < kMostSpent * *command_.timeLimit;
+}
+
 // Returns whether the picture begins again: with more photons, because its bias is too large, or
 // with another choice, because of its noise.
 bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& keeper) {
   if (result.reason == StopReason::Price)
     loader_.GiveUp(result.leastSamples, result.looks);
-  else if (result.reason != StopReason::Bias || !RaisePhotons(result.looks, &command_, log_))
+  else if (result.reason != StopReason::Bias || !HasTimeForAnother() ||
+           !RaisePhotons(result.looks, &command_, log_))
     return false;
   attempt_ = keeper.ThisAttempt();
   return true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,8 @@
 
 namespace exphoton::cli {
 namespace {
+
+using Clock = std::chrono::steady_clock;
 
 constexpr const char* kKnown[] = {"path", kGuidedPath, "exphotonmap", "photonmap"};
 // In this order: pilots of the first one cost least, and the first two show whether the last one
@@ -124,13 +127,20 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
          ChoiceText(*pilots, *best) + ")";
 }
 
-// A time limit should leave time for two groups.
-std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command) {
+std::optional<double> SecondsLeft(const RenderCommand& command, Clock::time_point begin) {
+  if (!command.timeLimit) return std::nullopt;
+  return *command.timeLimit - std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+// A time limit should leave time for two groups. secondsLeft: after the pilots; nullopt: no limit.
+std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command,
+                          std::optional<double> secondsLeft) {
   double size = kRoundUp * chosen.price.samples / GroupsOf(chosen);
-  if (command.timeLimit) {
+  if (secondsLeft) {
     const double cpuSeconds = chosen.price.seconds * chosen.secondsPerCost;
     const double seconds = cpuSeconds / ThreadPool(command.threadCount).Count();
-    size = std::min(size, kFirstShare * *command.timeLimit / seconds * chosen.price.samples);
+    size =
+        std::min(size, kFirstShare * std::max(*secondsLeft, 0.) / seconds * chosen.price.samples);
   }
   size = std::max(size, 1.);
   return std::max(kLeastGroup, std::int64_t(std::bit_floor(std::uint64_t(size))));
@@ -223,10 +233,11 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   if (!turned->load.integrator && !turned->keepsSettings)
     turned->load.comparedIntegrators = {std::begin(kAutomatic), std::end(kAutomatic)};
   const RenderCommand command = *turned;
+  const Clock::time_point begin = Clock::now();
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
   if (command.load.integrator) CheckDialIntegrator(*command.load.integrator);
   const auto renderer = std::make_shared<PilotRenderer>(
-      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true});
+      command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true, true});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{
@@ -240,18 +251,19 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
   const std::vector<GivenUp>& given = command.givenUp;
-  turned->dial = DialChoice{.firstSamples = FirstSamples(chosen, command),
-                            .biasShare = chosen.biasShare,
-                            .photonSamples = chosen.photonSamples,
-                            .settings = chosen.settings,
-                            .omitted = chosen.omitted,
-                            .lackingShare = chosen.lackingShare,
-                            .text = ChoiceText(pilots, chosen),
-                            .expectedSamples = chosen.price.samples,
-                            .mayRaisePhotons = !command.keepsSettings && command.maxPasses == 0 &&
-                                               MayRaisePhotons(chosen.settings),
-                            .earlierLooks = given.empty() ? 0 : given.back().looks,
-                            .rivalSamples = RivalSamples(candidates, chosen, given)};
+  turned->dial =
+      DialChoice{.firstSamples = FirstSamples(chosen, command, SecondsLeft(command, begin)),
+                 .biasShare = chosen.biasShare,
+                 .photonSamples = chosen.photonSamples,
+                 .settings = chosen.settings,
+                 .omitted = chosen.omitted,
+                 .lackingShare = chosen.lackingShare,
+                 .text = ChoiceText(pilots, chosen),
+                 .expectedSamples = chosen.price.samples,
+                 .mayRaisePhotons = !command.keepsSettings && command.maxPasses == 0 &&
+                                    MayRaisePhotons(chosen.settings),
+                 .earlierLooks = given.empty() ? 0 : given.back().looks,
+                 .rivalSamples = RivalSamples(candidates, chosen, given)};
   Apply(chosen.settings, turned);
   SetFirstSamples(turned->dial->firstSamples, turned);
   turned->certifies = chosen.correctedShare > 0;

@@ -162,7 +162,8 @@ std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
 std::string AccuracyText(const RunRecord& run) {
   if (!run.upperError)
     return Format("one group of passes cannot show whether the accuracy of %.3g %% is reached",
-                  100 * *run.accuracy);
+                  100 * *run.accuracy) +
+           (run.stoppedBy == "time-limit" ? ", and the time limit leaves no time for another" : "");
   const double percent = 100 * std::sqrt(*run.upperError);
   std::string text = Format("the error lies below %.3g %% (at a level of 95 %%)", percent);
   if (!run.omitted.empty())

@@ -118,4 +118,20 @@ ChildResult RunSelf(const std::vector<std::string>& arguments, const std::string
   return result;
 }
 
+std::vector<std::string> WarningsIn(const std::string& messages) {
+  std::vector<std::string> warnings;
+  std::istringstream text(messages);
+  bool isWarning = false;
+  for (std::string line; std::getline(text, line);) {
+    const bool continues = line.starts_with("    ");
+    if (!continues) isWarning = line.find(": warning: ") != std::string::npos;
+    if (!isWarning) continue;
+    if (continues)
+      warnings.back() += "\n" + line;
+    else
+      warnings.push_back(line);
+  }
+  return warnings;
+}
+
 }  // namespace exphoton::cli

@@ -16,6 +16,9 @@ struct ChildResult {
   std::string messages;   // the child's standard output and error
 };
 
+// Returns the warnings among the messages of a render, each with its source line and hint.
+std::vector<std::string> WarningsIn(const std::string& messages);
+
 std::string OwnProgram();  // path of the running program; throws Error(Internal)
 
 // Runs this program and waits for its end. Kills it if `stop` is set or this process ends. Its

@@ -117,7 +117,7 @@ void MakeQuote(const std::vector<std::string>& arguments) {
   const InterruptWatch watch;
   FileSource::Streams streams;
   Log log(options.isVerbose ? Log::Level::Verbose : Log::Level::Normal);
-  PilotRenderer renderer(command, options.scene, {"quote", &streams, &log});
+  PilotRenderer renderer(command, options.scene, {"quote", &streams, &log, false, true});
   const QuoteScene scene = SceneOf(options);
   const double cpuSeconds = options.seconds * ThreadPool(options.threads).Count();
   std::vector<Quote> quotes;

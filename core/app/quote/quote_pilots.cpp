@@ -3,6 +3,8 @@
 // the most accurate one.
 #include "core/app/quote/quote_pilots.h"
 
+#include <algorithm>
+
 #include "core/base/error.h"
 #include "core/base/statistics.h"
 
@@ -13,6 +15,9 @@ constexpr std::size_t kLeastPilots = 2, kMostPilots = 8;
 // The estimate of the bias takes this many times the time of the samples of the last pilot.
 constexpr double kBiasTime = 3;
 constexpr double kPixelMemory = 70;  // bytes for each pixel of a picture
+
+// Integrators whose pictures are right in the mean, but for limits of depth.
+constexpr const char* kWithoutBias[] = {"path", "guidedpath", "bidirectional"};
 
 // The next pilot takes twice as long, and then comes one that estimates the bias.
 void RenderSeries(PilotSeries* series, double cpuSeconds) {
@@ -48,7 +53,10 @@ Quote RunPilots(PilotRenderer* renderer, const std::string& integrator, double c
   quote.settings = series.Settings();
   quote.light = last.light;
   quote.memory = PeakMemoryBytes() + kPixelMemory * (renderer->Pixels() - last.pixels);
-  if (last.certificate) quote.notCovered = last.certificate->notCovered;
+  if (last.certificate)
+    quote.notCovered = last.certificate->notCovered;
+  else if (std::ranges::find(kWithoutBias, integrator) == std::end(kWithoutBias))
+    quote.notCovered = {"all that this integrator lacks or blurs, so the error is its noise alone"};
   return quote;
 }
 

@@ -49,6 +49,15 @@ Html ReferenceNote(const Results& results) {
               {{"reference", FileInFolder(r.scene)}, {"scene", FileInFolder(results.scene)}});
 }
 
+Html WarningSection(const Results& results) {
+  Html warnings;
+  WarningSet known;
+  for (const RunRow& row : results.runs)
+    for (const std::string& text : known.Add(row.warnings))
+      warnings += Fill("warning", {{"text", text}});
+  return warnings.IsEmpty() ? Html() : Fill("warning-section", {{"warnings", warnings}});
+}
+
 Html CertificateFact(const Results& results) {
   const auto count = std::ranges::count_if(
       results.runs, [](const RunRow& row) { return !row.certificate.empty(); });
@@ -134,7 +143,7 @@ Html Opening(const std::string& folder, const Results& results, const Analysis& 
                           {"kind", isBeside ? "beside" : "alone"},
                           {"time", SecondsText(common)},
                           {"posters", posters}}) +
-         Facts(results, analysis);
+         WarningSection(results) + Facts(results, analysis);
 }
 
 }  // namespace exphoton::study

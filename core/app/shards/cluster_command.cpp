@@ -12,10 +12,12 @@
 #include "core/app/options/values.h"
 #include "core/app/output/output_files.h"
 #include "core/app/output/output_names.h"
+#include "core/app/process/signals.h"
 #include "core/app/shards/part_set.h"
 #include "core/app/shards/slurm_scripts.h"
 #include "core/base/error.h"
 #include "core/parser/frame_name.h"
+#include "core/parser/render_setup.h"
 
 namespace exphoton::cli {
 namespace {
@@ -176,16 +178,32 @@ RenderCommand ParseTasks(const ClusterOptions& options) {
   return picture;
 }
 
+// Loads the scene, so that its errors show here and not in each task.
+void CheckScene(const RenderCommand& command, const std::string& path) {
+  LoadOptions load = command.load;
+  load.stop = &StopFlag();
+  Log log(command.logLevel);
+  FileSource source;
+  const std::size_t count = LoadScenes(source, path, load, log).size();
+  if (count == 1) return;
+  throw Error(ExitStatus::CommandLine, "a cluster renders one picture, but \"" + path +
+                                           "\" holds " + std::to_string(count) + " scenes");
+}
+
 // Throws for options of exphoton render that are wrong, before any job fails for them.
 void CheckRenderOptions(const ClusterOptions& options) {
   const RenderCommand command = ParseTasks(options);
   OutputNames(command).CheckEndings();
   if (command.scenes.size() != 1) FailUsage("a cluster renders one scene");
+  for (const char* option : {"--check", "--explain"})
+    if (HasOption(options.render, option))
+      FailUsage(std::string(option) + " is not for the options after --: the tasks make pictures");
   const bool isNumbered = command.frames && HasFrameNumber(options.scene);
   const std::string scene =
       isNumbered ? FrameName(options.scene, command.frames->first) : options.scene;
   if (!fs::is_regular_file(scene))
     throw Error(ExitStatus::File, "cannot read the scene \"" + scene + "\": no such file");
+  CheckScene(command, scene);
   CheckWritable(command.frames ? FrameName(options.outfile, command.frames->first)
                                : options.outfile);
 }

@@ -185,6 +185,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   RequireCertificates(options, results.settings);
   if (!options.photonFile.empty())
     options.photonIntegrators = FindPhotonIntegrators(options, results.settings);
+  CheckSettings(options, results.settings);
   if (options.onlyPlans) {
     PrintOut(PlanText(options, results.settings));
     return PrintOut(ForecastText(options, scene, results.settings));
@@ -192,6 +193,7 @@ void Study(const std::vector<std::string>& arguments, const std::string& command
   if (options.missingOf > 0)
     return PrintOut(MissingTasksText(options, scene, program, results.settings));
   if (options.taskCount > 0) return WriteStudyScripts(options, results.settings.size());
+  if (!options.tasksFolder.empty()) CheckTaskFolders(options.tasksFolder);
   StudyFolder folder(options.folder);
   if (options.task) return RunStudyTask(options, scene, program, results.settings, folder);
   ClaimResults(options, scene, folder);

@@ -198,7 +198,17 @@ study::ReferenceRecord PrepareReference(const StudyOptions& options, StudyRunner
     record.b = fs::absolute(options.references[1]).lexically_normal().string();
   const Image image = ReadImage(record.a);
   WarnOfCommonSeed(options, record.a, image);
-  if (!record.b.empty()) WarnOfCommonSeed(options, record.b, ReadImage(record.b));
+  if (!record.b.empty()) {
+    const Image other = ReadImage(record.b);
+    WarnOfCommonSeed(options, record.b, other);
+    if (other.pixels == image.pixels)
+      throw Error(
+          ExitStatus::CommandLine,
+          "both halves of the reference have the same pixels, which would hide their noise: "
+          "\"" +
+              options.references[0] + "\" and \"" + options.references[1] + "\"",
+          {}, "--reference takes two renders with different seeds, or one");
+  }
   record.scene = StringAttribute(image, "scene");
   record.integrator = StringAttribute(image, "integrator");
   return record;

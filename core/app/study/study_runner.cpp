@@ -65,6 +65,11 @@ void Say(const StudyOptions& options, const std::string& text) {
   if (!options.isQuiet) std::fprintf(stderr, "%s\n", text.c_str());
 }
 
+void StudyRunner::ShowWarnings(const study::RunRow& row) {
+  for (const std::string& warning : warnings_.Add(row.warnings))
+    std::fprintf(stderr, "%s\n", warning.c_str());
+}
+
 RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
   const std::string statistics = folder_.Running("render.json");
   RenderedPicture result{{}, folder_.Running("render.exr")};
@@ -89,6 +94,8 @@ RenderedPicture StudyRunner::Render(const std::vector<std::string>& arguments) {
   result.row.cpuSeconds = child.cpuSeconds;
   result.row.peakMemory = child.peakMemory;
   result.row.command = CommandText(arguments);
+  result.row.warnings = WarningsIn(child.messages);
+  ShowWarnings(result.row);
   std::error_code ignored;
   fs::remove(statistics, ignored);
   return result;
@@ -105,10 +112,14 @@ study::RunRow StudyRunner::RunAs(const std::string& name, const std::vector<std:
                                  std::uint64_t seed) {
   study::RunRow row;
   wasFound_ = finished_.Find(folder_.Path(), name, arguments, &row);
-  if (wasFound_) return row;
+  if (wasFound_) {
+    ShowWarnings(row);
+    return row;
+  }
   const std::string task = finished_.FindInTasks(name, arguments, &row);
   wasFound_ = !task.empty();
   if (wasFound_) {
+    ShowWarnings(row);
     folder_.Take(task + "/" + name + ".exr", name + ".exr");
   } else {
     const RenderedPicture picture = Render(arguments);

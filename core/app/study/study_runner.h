@@ -46,9 +46,13 @@ class StudyRunner {
   RenderedPicture Render(const std::vector<std::string>& arguments);
 
  private:
+  // Prints the warnings of a render that earlier renders did not have.
+  void ShowWarnings(const study::RunRow& row);
+
   const StudyOptions& options_;
   StudyFolder& folder_;
   FinishedRuns finished_;
+  study::WarningSet warnings_;
   bool wasFound_ = false;  // the last run was found, not rendered
 };
 

@@ -322,6 +322,25 @@ std::vector<std::string> RunArguments(const StudyOptions& options, const study::
   return arguments;
 }
 
+void CheckSettings(const StudyOptions& options, const std::vector<study::Setting>& settings) {
+  std::unique_ptr<RenderSetup> known;
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
+  for (const study::Setting& setting : settings) {
+    std::vector<std::string> words = RunArguments(options, setting, 1);
+    words.erase(words.begin());  // the name of the command
+    LoadOptions load = ParseRenderCommand(words, RenderMode::Render).load;
+    load.stop = &StopFlag();
+    load.known = known && known->scene && known->scene->IsWhole() ? known.get() : nullptr;
+    FileSource source;
+    std::unique_ptr<RenderSetup> setup =
+        std::move(LoadScenes(source, options.scene, load, log).front());
+    // Integrators refer to the scene, which the next setup takes.
+    setup->integrator.reset();
+    setup->volumeIntegrator.reset();
+    known = std::move(setup);
+  }
+}
+
 std::string CommandText(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{"exphoton"};
   words.insert(words.end(), arguments.begin(), arguments.end());

@@ -58,6 +58,8 @@ std::vector<std::string> RenderArguments(const StudyOptions& options, const std:
 // one, and ask for a certificate, if the run has one.
 std::vector<std::string> RunArguments(const StudyOptions& options, const study::Setting& setting,
                                       std::uint64_t seed);
+// Loads the scene with each setting. Throws Error for a wrong value, before hours of rendering.
+void CheckSettings(const StudyOptions& options, const std::vector<study::Setting>& settings);
 // Returns "exphoton render ..." quoted for a shell.
 std::string CommandText(const std::vector<std::string>& arguments);
 

@@ -144,6 +144,17 @@ std::string MissingTasksText(const StudyOptions& options, const SceneFacts& scen
   return text.empty() ? "" : text + "\n";
 }
 
+void CheckTaskFolders(const std::string& folder) {
+  std::error_code error;
+  const fs::directory_iterator readable(folder, error);
+  if (error)
+    throw Error(ExitStatus::File, "cannot read the folder \"" + folder + "\": " + error.message(),
+                {}, "--from takes the folder in which tasks made their folders (study --tasks N)");
+  if (TaskFolders(folder).empty())
+    throw Error(ExitStatus::File, "the folder \"" + folder + "\" has no results of tasks", {},
+                "study --task I/N makes them");
+}
+
 std::vector<std::string> TaskFolders(const std::string& folder) {
   std::vector<std::string> folders;
   if (folder.empty()) return folders;

@@ -45,6 +45,9 @@ std::string MissingTasksText(const StudyOptions& options, const SceneFacts& scen
 // Returns the folders of tasks in a folder, in the order of their numbers; none if `folder` is "".
 std::vector<std::string> TaskFolders(const std::string& folder);
 
+// Throws Error if the folder cannot be read or has no folder of a task.
+void CheckTaskFolders(const std::string& folder);
+
 // Copies the reference that task 0 made, unless the study has one.
 void TakeReferenceOfTask(const std::string& tasks, StudyFolder& folder);
 

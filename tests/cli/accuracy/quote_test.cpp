@@ -61,6 +61,16 @@ TEST_F(QuoteTest, ShowsItsPilotsWhichShareTheirPhotons) {
   for (std::size_t i = 1; i < prices.size(); ++i) EXPECT_EQ(prices[i], 0) << quote.err;
 }
 
+TEST_F(QuoteTest, ShowsWarningsAboutTheSceneAndErrorsThatItDoesNotKnow) {
+  Write("glas.pbrt", SmallScene("", "Material \"glas\""));
+  const ProgramResult quote = Run({"quote", "glas.pbrt", "--accuracies", "40%", "--pilot-time",
+                                   "1s", "--integrators", "path,directlighting"});
+  ASSERT_EQ(quote.status, 0) << quote.err;
+  ExpectIn("there is no material \"glas\"", quote.err);
+  ExpectIn("directlighting: the bias leaves out all that this integrator lacks", quote.out);
+  ExpectNotIn("path: the bias leaves out", quote.out);
+}
+
 TEST_F(QuoteTest, SaysWhatIsWrong) {
   const auto refused = [&](const Names& more, int status) {
     Names words{"quote", "room.pbrt", "--quiet"};

@@ -89,9 +89,19 @@ TEST_F(ClusterScripts, APictureThatNoMergeCanWriteIsRefusedBeforeAnyTask) {
   ExpectRefused(1, {"--shards", "2", "-o", "a.exr", "--", "--stats-json", "s.json"},
                 "--stats-json names one file, but every shard would write it");
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
+  for (const char* option : {"--check", "--explain"})
+    ExpectRefused(1, {"--shards", "2", "-o", "a.exr", "--", option},
+                  std::string(option) + " is not for the options after --");
+  ExpectRefused(1, {"--shards", "2", "-o", "a.exr", "--", "--integrator", "nosuch"}, "\"nosuch\"");
   EXPECT_EQ(Cluster({"--shards", "2", "-o", "a.PNG"}).status, 0);
   EXPECT_EQ(Cluster({"--shards", "2", "-o", "a.exr", "--", "--aov", "albedo", "--float"}).status,
             0);
+}
+
+TEST_F(ClusterScripts, AFaultySceneIsRefusedBeforeAnyTask) {
+  Write("scene.pbrt", "LookAt 1 2");
+  ExpectRefused(2, {"--shards", "2", "-o", "a.exr"}, "LookAt takes 9 numbers");
+  EXPECT_EQ(Files(), Names{"scene.pbrt"});
 }
 
 }  // namespace

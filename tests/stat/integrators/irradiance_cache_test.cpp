@@ -3,6 +3,8 @@
 // tracing, and check the effect of each parameter.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "integrators/irradiance/irradiance_estimate.h"
 #include "tests/stat/integrators/comparison.h"
 
@@ -233,6 +235,33 @@ TEST(IrradianceCache, FollowsMirrorsToItsSpecularDepth) {
   const PixelBounds middle{9, 8, 15, 12};
   EXPECT_EQ(MeanRadiance(none.image, middle), 0);
   EXPECT_GT(MeanRadiance(one.image, middle), .1);
+}
+
+// Rays through the centres of pixels on the diagonals meet the edges of this box, where a point
+// lies in the plane of the other wall. The lamp is outside.
+TEST(IrradianceCache, SeesNoLightThroughTheEdgesOfARoom) {
+  std::ostringstream box;
+  for (const int axis : {0, 1, 2})
+    for (const int side : {-2, 2}) {
+      box << "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [";
+      for (const auto& [u, v] : {std::pair{-2, -2}, {2, -2}, {2, 2}, {-2, 2}}) {
+        const int values[] = {side, u, v};
+        for (const int c : {0, 1, 2}) box << values[(c + 3 - axis) % 3] << ' ';
+      }
+      box << "]\n";
+    }
+  const std::string scene =
+      TestHeader("\"irradiancecache\" \"integer nsamples\" 512", 24, 18, 4) +
+      "LookAt 0 0 -1.9  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" [60]\nWorldBegin\n"
+      "Material \"matte\" \"color Kd\" [.5 .5 .5]\n" +
+      box.str() +
+      "AreaLightSource \"area\" \"color L\" [1 1 1]\nReverseOrientation\n"
+      "Shape \"sphere\" \"float radius\" [3.7]\nWorldEnd\n";
+  for (const std::uint64_t seed : {1, 2}) {
+    const Image image = RenderCached(scene, seed).image;
+    for (int y = 0; y < 18; ++y)
+      for (int x = 0; x < 24; ++x) ASSERT_EQ(image.At(x, y, 1), 0) << x << ' ' << y;
+  }
 }
 
 TEST(IrradianceCache, GivesTheSameBitsForAnyThreadsTilesAndCrop) {

@@ -65,7 +65,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
       scene_(std::move(scene), surroundings.option, surroundings.streams),
       verbose_(*surroundings.log) {
   const double begin = ProcessCpuSeconds();
-  if (surroundings.isForPicture) scene_.ShowMessages(surroundings.log);
+  if (surroundings.showsMessages) scene_.ShowMessages(surroundings.log);
   small_ = scene_.Options(command, &setup_);
   loadSeconds_ = ProcessCpuSeconds() - begin;
   sceneIntegrator_ = setup_->integratorName;

@@ -65,8 +65,9 @@ class PilotRenderer {
   struct Surroundings {
     const char* option;  // for a message about a file with several scenes
     FileSource::Streams* streams;
-    Log* log;                   // receives a verbose line for each pilot
-    bool isForPicture = false;  // a picture follows and takes the scene of the pilots if possible
+    Log* log;                    // receives a verbose line for each pilot
+    bool isForPicture = false;   // a picture follows and takes the scene of the pilots if possible
+    bool showsMessages = false;  // about the text and the world of the scene
   };
   // Scenes lose lights and media that are switched off, or that their integrator does not compute
   // (Scene::SetFeatures).
