@@ -223,10 +223,14 @@ bool FileRenderer::HasTimeForAnother() const {
 }
 
 // Returns whether the picture begins again: with more photons, because its bias is too large, or
-// with another choice, because of its noise.
+// with another choice, because of its noise or the price of more photons.
 bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& keeper) {
+  const auto dear = result.reason == StopReason::Bias ? TooManySamples(command_) : std::nullopt;
   if (result.reason == StopReason::Price)
-    loader_.GiveUp(result.leastSamples, result.looks);
+    loader_.GiveUp("needs at least", result.leastSamples, result.looks);
+  else if (dear)
+    loader_.GiveUp("needs more photons for its bias, and would cost as much as", *dear,
+                   result.looks);
   else if (result.reason != StopReason::Bias || !HasTimeForAnother() ||
            !RaisePhotons(result.looks, &command_, log_))
     return false;
@@ -317,12 +321,14 @@ FileRenderer::Picture FileRenderer::Write(const RunRecord& run, Image image,
   const PhaseTimer timer(statistics, "write");
   Picture picture{names_.Picture(filmName_), std::move(image), {}};
   if (!run.isComplete) picture.path = run_.files.PartialPicture(picture.path);
-  if (IsPngName(picture.path)) {
-    WritePngPicture(picture.path, picture.image, command_.png, log_);
-    return picture;
-  }
-  FinishExr(run, command_.isReproducible, &picture.image);
-  picture.report = WriteExr(picture.path, picture.image, command_.asHalf);
+  if (!IsPngName(picture.path)) FinishExr(run, command_.isReproducible, &picture.image);
+  const auto write = [&](const std::string& path) {
+    if (IsPngName(path))
+      WritePngPicture(path, picture.image, command_.png, log_);
+    else
+      picture.report = WriteExr(path, picture.image, command_.asHalf);
+  };
+  run.isComplete ? WriteOrKeepElsewhere(picture.path, write) : write(picture.path);
   return picture;
 }
 

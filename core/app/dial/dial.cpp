@@ -29,6 +29,7 @@ constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a firs
 constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
 constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
 constexpr double kMorePhotons = 4, kMostPhotons = 256;
+constexpr double kDearer = 2;          // than a rival, whose price comes from small pilots
 constexpr double kNotableRatio = 1.1;  // of times
 constexpr double kFirstShare = .25;    // of a time limit, for the first group of passes
 constexpr double kGroupShare = .1;     // of the price, for photons of more groups
@@ -276,6 +277,14 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   for (const OmittedEffect& effect : chosen.omitted) log.Notice(TextOf(effect));
   if (command.keepsSettings) log.Notice(CostOfKeeping(&pilots, chosen, wish));
   return renderer;
+}
+
+// With a time limit there is no second choice, because the first picture has taken time.
+std::optional<double> TooManySamples(const RenderCommand& command) {
+  const DialChoice& dial = *command.dial;
+  if (!dial.mayRaisePhotons || command.timeLimit) return std::nullopt;
+  const double samples = kMorePhotons * dial.photonSamples + dial.expectedSamples;
+  return samples > kDearer * dial.rivalSamples ? std::optional(samples) : std::nullopt;
 }
 
 bool RaisePhotons(int looks, RenderCommand* command, Log& log) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/app/options/options.h"
@@ -22,6 +23,10 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* command, const std::strin
 // Takes over the later choice of a stopped render, which the pilots do not repeat. Returns whether
 // the command has changed.
 bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log);
+
+// Returns what the picture with more photons is expected to cost, in samples per pixel, if a rival
+// is expected to cost far less; nullopt: there is no such rival, or the dial may not do so.
+std::optional<double> TooManySamples(const RenderCommand& command);
 
 // Multiplies the photons after a render whose bias is too large for the accuracy, if the dial may
 // do so. looks: at that render and earlier ones. Returns whether they became more.

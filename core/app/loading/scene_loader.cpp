@@ -58,15 +58,13 @@ void SceneLoader::ForgetChoice(std::vector<GivenUp> givenUp) {
   command_.givenUp = std::move(givenUp);
 }
 
-void SceneLoader::GiveUp(double neededSamples, int looks) {
+void SceneLoader::GiveUp(const std::string& reason, double neededSamples, int looks) {
   std::vector<GivenUp> all = command_.givenUp;
   const double samples = std::min(neededSamples, double(StoppingRule::kMaxSamples));
   const std::string integrator = *command_.load.integrator;
-  log_.Notice(
-      "the picture of " + integrator +
-      Format(" needs at least %.3g samples a pixel instead of about %.3g, so another choice "
-             "is made",
-             samples, command_.dial->expectedSamples));
+  log_.Notice("the picture of " + integrator + " " + reason +
+              Format(" %.3g samples a pixel instead of about %.3g, so another choice is made",
+                     samples, command_.dial->expectedSamples));
   all.push_back({integrator, samples, looks});
   ForgetChoice(std::move(all));
 }

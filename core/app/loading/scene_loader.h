@@ -30,7 +30,7 @@ class SceneLoader {
   // Gives up the picture of the choice, which needs at least this number of samples per pixel. The
   // next Load chooses again, and compares the rivals with what is known now. looks: at this picture
   // and earlier ones.
-  void GiveUp(double neededSamples, int looks);
+  void GiveUp(const std::string& reason, double neededSamples, int looks);
 
   // Returns the seed of the photons that the last loaded scene has from a pilot; nullopt: none.
   std::optional<std::uint64_t> PreparedSeed() const { return preparedSeed_; }

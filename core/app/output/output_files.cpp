@@ -9,8 +9,10 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
+#include "core/app/process/temporary_folder.h"
 #include "core/base/error.h"
 #include "core/files/atomic_file.h"
 #include "core/files/file_identity.h"
@@ -60,6 +62,30 @@ void WriteTextFile(const std::string& path, const std::string& text) {
   AtomicFile file(path);
   file.Write(text.data(), text.size());
   file.Commit();
+}
+
+void WriteOrKeepElsewhere(const std::string& path,
+                          const std::function<void(const std::string&)>& write) {
+  std::optional<Error> failure;
+  try {
+    write(path);
+  } catch (const Error& error) {
+    if (error.Status() != ExitStatus::File) throw;
+    failure = error;
+  }
+  if (!failure) return;
+  std::string other;
+  try {
+    TemporaryFolder folder("kept");
+    other = folder.File(fs::path(path).filename());
+    write(other);
+    folder.Keep();
+  } catch (const std::exception&) {
+    throw *failure;
+  }
+  throw Error(ExitStatus::File,
+              std::string(failure->what()) + "; it is written to \"" + other + "\" instead", {},
+              "move it from there, because temporary folders are emptied");
 }
 
 void PrintOut(const std::string& text) {

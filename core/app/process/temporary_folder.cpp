@@ -16,6 +16,7 @@ TemporaryFolder::TemporaryFolder(const std::string& purpose) {
 }
 
 TemporaryFolder::~TemporaryFolder() {
+  if (isKept_) return;
   std::error_code ignored;
   std::filesystem::remove_all(path_, ignored);
 }

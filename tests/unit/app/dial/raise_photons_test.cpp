@@ -55,6 +55,22 @@ TEST(RaisePhotons, InformsTheNextRender) {
   EXPECT_EQ(command.dial->photonSamples, 8);
 }
 
+// With 4 times the photons, the picture is expected to cost as much as 4 * 2 + 10 samples.
+TEST(TooManySamples, AreMoreThanTwiceThoseOfARival) {
+  RenderCommand command = ChosenWith(1);
+  command.dial->expectedSamples = 10;
+  EXPECT_FALSE(TooManySamples(command));  // no rival
+  command.dial->rivalSamples = 9.1;
+  EXPECT_FALSE(TooManySamples(command));
+  command.dial->rivalSamples = 8.9;
+  EXPECT_EQ(TooManySamples(command), 18);
+  command.timeLimit = 60;
+  EXPECT_FALSE(TooManySamples(command));
+  command.timeLimit.reset();
+  command.dial->mayRaisePhotons = false;  // for example with --keep
+  EXPECT_FALSE(TooManySamples(command));
+}
+
 TEST(RaisePhotons, EndsWithTooManyPhotons) {
   Log log(Log::Level::Quiet, Log::Sink::Memory);
   RenderCommand command = ChosenWith(64);
