@@ -15,6 +15,7 @@
 #include "core/app/study/study_scene.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/terminal.h"
 
 namespace exphoton::cli {
 namespace {
@@ -111,6 +112,13 @@ QuoteScene SceneOf(const QuoteOptions& options) {
   return scene;
 }
 
+// Prints the warnings of a pilot, for example that a depth limit cuts much light.
+void PrintWarnings(const std::vector<std::string>& messages) {
+  for (const std::string& message : messages)
+    if (message.find(": warning: ") != std::string::npos)
+      std::fputs(Colored(message, "warning").c_str(), stderr);
+}
+
 void MakeQuote(const std::vector<std::string>& arguments) {
   const QuoteOptions options = ParseQuoteOptions(arguments);
   const RenderCommand command = PilotCommand(options);
@@ -124,6 +132,7 @@ void MakeQuote(const std::vector<std::string>& arguments) {
   for (const std::string& name : options.integrators) {
     if (!options.isQuiet) std::fprintf(stderr, "exphoton: pilots of %s\n", name.c_str());
     quotes.push_back(RunPilots(&renderer, name, cpuSeconds / double(options.integrators.size())));
+    PrintWarnings(quotes.back().messages);
   }
   PrintOut(scene.path + ", " + std::to_string(renderer.Width()) + " x " +
            std::to_string(renderer.Height()) + " pixels\n" +

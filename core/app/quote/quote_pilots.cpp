@@ -52,6 +52,7 @@ Quote RunPilots(PilotRenderer* renderer, const std::string& integrator, double c
   quote.model = series.Model();
   quote.settings = series.Settings();
   quote.light = last.light;
+  quote.messages = last.messages;
   quote.memory = PeakMemoryBytes() + kPixelMemory * (renderer->Pixels() - last.pixels);
   if (last.certificate)
     quote.notCovered = last.certificate->notCovered;

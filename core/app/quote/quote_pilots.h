@@ -18,6 +18,7 @@ struct Quote {
   double memory = 0;                    // bytes, of the picture that is quoted
   DialSettings settings;                // the photons of the scene
   std::vector<std::string> notCovered;  // by the estimate of the bias
+  std::vector<std::string> messages;    // of the last pilot, as they would be printed
   std::string failure;                  // why there is no quote; "": there is one
 };
 

@@ -69,6 +69,10 @@ TEST_F(QuoteTest, ShowsWarningsAboutTheSceneAndErrorsThatItDoesNotKnow) {
   ExpectIn("there is no material \"glas\"", quote.err);
   ExpectIn("directlighting: the bias leaves out all that this integrator lacks", quote.out);
   ExpectNotIn("path: the bias leaves out", quote.out);
+  const ProgramResult cut = Run({"quote", "room.pbrt", "--accuracies", "40%", "--pilot-time", "1s",
+                                 "--integrators", "path", "--set", "SurfaceIntegrator.maxdepth=1"});
+  ASSERT_EQ(cut.status, 0) << cut.err;
+  ExpectIn("warning: integrator \"path\": the depth limit \"maxdepth\" cut about", cut.err);
 }
 
 TEST_F(QuoteTest, SaysWhatIsWrong) {

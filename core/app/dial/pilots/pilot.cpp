@@ -255,6 +255,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   const auto sampler = setup.sampler->WithSamplesPerPixel(std::max(request.samples / 2, 1));
   const PassesResult result = RenderHalves(small.Job(setup, *sampler, &films.film),
                                            request.estimatesSharing, &films, &picture);
+  picture.messages = small.Messages();
   const Statistics& statistics = small.Counts();
   work_.Add(statistics);
   picture.cost = CostOf(statistics, setup.integratorName);

@@ -58,6 +58,7 @@ struct PilotPicture {
   bool hasBias = false;                    // whether the integrator can estimate it
   double guessedBias = 0;                  // of the scene's photons, cautiously; relative
   std::optional<Certificate> certificate;  // for the blocks that certify the least bias
+  std::vector<std::string> messages;       // of the render, as they would be printed
 };
 
 class PilotRenderer {

@@ -51,6 +51,8 @@ class SmallRender {
   // The job refers to all arguments and to this object.
   RenderJob Job(const RenderSetup& setup, const Sampler& sampler, Film* film);
   const Statistics& Counts() const { return statistics_; }
+  // Returns the messages of the render, as they would be printed.
+  std::vector<std::string> Messages() const { return log_.Messages(); }
 
  private:
   ThreadPool threads_;
