@@ -50,20 +50,22 @@ PhotonParts::PhotonParts(const std::string& folder) : folder_(folder) {
   std::ranges::sort(paths_);
 }
 
-std::string PhotonParts::Missing() const {
+std::vector<int> PhotonParts::Missing() const {
   std::vector<int> missing;
   for (int index = 1; index <= count_; ++index)
     if (std::ranges::find(found_, index) == found_.end()) missing.push_back(index);
-  return IndexRanges(missing);
+  return missing;
 }
 
 void PhotonParts::CheckComplete() const {
-  const std::string missing = Missing();
+  const std::vector<int> missing = Missing();
   if (missing.empty()) return;
   throw Error(ExitStatus::File,
-              "shares " + missing + " of " + std::to_string(count_) + " are missing in \"" +
-                  folder_ + '"' + (damage_.empty() ? "" : "; " + damage_),
-              {}, "--incomplete shoots what they would have");
+              MissingText(missing, count_, "share") + " in \"" + folder_ + '"' +
+                  (damage_.empty() ? "" : "; " + damage_),
+              {},
+              std::string("--incomplete shoots what ") + (missing.size() == 1 ? "it" : "they") +
+                  " would have");
 }
 
 }  // namespace exphoton::cli

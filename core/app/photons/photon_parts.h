@@ -19,8 +19,7 @@ class PhotonParts {
   explicit PhotonParts(const std::string& folder);
 
   const std::vector<std::string>& Paths() const { return paths_; }  // of the undamaged files
-  // Returns the indices of missing and damaged shares, "2,5-7"; "" if there are none.
-  std::string Missing() const;
+  std::vector<int> Missing() const;  // indices of missing and damaged shares, sorted
   // Throws Error(File) that names missing and damaged shares.
   void CheckComplete() const;
 

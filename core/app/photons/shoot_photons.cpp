@@ -13,6 +13,7 @@
 #include "core/app/photons/photon_use.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/process/signals.h"
+#include "core/app/shards/part_set.h"
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
@@ -105,7 +106,7 @@ std::vector<std::string> FindParts(const PhotonOptions& options) {
 }
 
 void ListMissingParts(const PhotonOptions& options) {
-  const std::string missing = PhotonParts(options.partsFolder).Missing();
+  const std::string missing = IndexRanges(PhotonParts(options.partsFolder).Missing());
   PrintOut(missing.empty() ? "" : missing + "\n");
 }
 

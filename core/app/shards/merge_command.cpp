@@ -16,6 +16,7 @@
 #include "core/app/output/run_record.h"
 #include "core/app/process/interrupt_watch.h"
 #include "core/app/shards/part_set.h"
+#include "core/base/format.h"
 #include "core/base/terminal.h"
 #include "core/plugins/registry.h"
 #include "core/render/shards/merge_shards.h"
@@ -92,8 +93,33 @@ MergeOptions ParseMergeOptions(const std::vector<std::string>& arguments) {
   return options;
 }
 
+// Throws the first error, with the others behind it. The last one is always listed.
+[[noreturn]] void FailOfParts(std::vector<Error> errors, Log& log) {
+  if (errors.size() > kMostErrors) {
+    const std::size_t more = errors.size() - kMostErrors;
+    errors.erase(errors.begin() + kMostErrors, errors.end() - 1);
+    log.Warning(Counted(std::int64_t(more), "error") + " of further parts " +
+                (more == 1 ? "is" : "are") + " not listed");
+  }
+  Error first = errors.front();
+  first.AddOthers({errors.begin() + 1, errors.end()});
+  throw first;
+}
+
+// Throws the problems that remain when all missing parts have been rendered: parts of another
+// picture, and any problem of a part if none is missing.
+void CheckLastingProblems(const PartSet& parts, bool isComplete, Log& log) {
+  std::vector<Error> lasting;
+  for (const Error& problem : parts.Problems()) {
+    if (isComplete || problem.Status() == ExitStatus::CommandLine)
+      lasting.push_back(problem);
+    else
+      log.Warning(problem.what(), {}, problem.Hint());
+  }
+  if (!lasting.empty()) FailOfParts(lasting, log);
+}
+
 void ListMissing(const MergeOptions& options, const PartSet& parts, Log& log) {
-  for (const Error& problem : parts.Problems()) log.Warning(problem.what());
   const int count = options.shards > 0 ? options.shards : parts.Count();
   if (count == 0)
     throw Error(ExitStatus::File, "there is no part, so the number of parts is not known", {},
@@ -103,8 +129,9 @@ void ListMissing(const MergeOptions& options, const PartSet& parts, Log& log) {
                 "--shards is " + std::to_string(count) + ", but the parts are of " +
                     std::to_string(parts.Count()),
                 {}, "divide the picture into the same number of shards every time");
-  const std::string missing = IndexRanges(parts.Missing(count));
-  if (!missing.empty()) PrintOut(missing + "\n");
+  const std::vector<int> missing = parts.Missing(count);
+  CheckLastingProblems(parts, missing.empty(), log);
+  if (!missing.empty()) PrintOut(IndexRanges(missing) + "\n");
 }
 
 void CheckParts(const MergeOptions& options, const PartSet& parts, Log& log) {
@@ -115,21 +142,12 @@ void CheckParts(const MergeOptions& options, const PartSet& parts, Log& log) {
                         SourceLocation(),
                         "exphoton render SCENE --shard I/N -o FOLDER writes them");
   else if (const std::vector<int> missing = parts.Missing(count); !missing.empty())
-    errors.emplace_back(ExitStatus::File,
-                        "parts " + IndexRanges(missing) + " of " + std::to_string(count) +
-                            " are missing or unusable",
+    errors.emplace_back(ExitStatus::File, MissingText(missing, count, "part") + " or unusable",
                         SourceLocation(),
                         "exphoton render SCENE --shard " + std::to_string(missing.front()) + "/" +
-                            std::to_string(count) + " -o FOLDER renders the first of them");
-  if (errors.empty()) return;
-  if (errors.size() > kMostErrors) {
-    const std::size_t more = errors.size() - kMostErrors;
-    errors.erase(errors.begin() + kMostErrors, errors.end() - 1);
-    log.Warning(std::to_string(more) + " errors of further parts are not listed");
-  }
-  Error first = errors.front();
-  first.AddOthers({errors.begin() + 1, errors.end()});
-  throw first;
+                            std::to_string(count) + " -o FOLDER renders " +
+                            (missing.size() == 1 ? "it" : "the first of them"));
+  if (!errors.empty()) FailOfParts(errors, log);
 }
 
 // Prints the messages of the parts, each once.
@@ -258,9 +276,8 @@ class Merge {
       FinishExr(run, isReproducible_, &image);
       WriteExrPicture(options_.outfile, image, asHalf, log_);
     }
-    const std::size_t count = parts_.Files().size();
-    log_.Notice("wrote \"" + options_.outfile + "\" from " + std::to_string(count) +
-                (count == 1 ? " part" : " parts"));
+    log_.Notice("wrote \"" + options_.outfile + "\" from " +
+                Counted(std::int64_t(parts_.Files().size()), "part"));
   }
 
   const MergeOptions& options_;

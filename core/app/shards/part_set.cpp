@@ -126,10 +126,14 @@ std::vector<std::string> PartFilesAt(const std::string& path) {
     throw Error(ExitStatus::File, "cannot read \"" + path + "\": no such file or folder");
   if (!fs::is_directory(status)) return {path};
   std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator(path)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("part-") && name.ends_with(".state")) files.push_back(entry.path());
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with("part-") && name.ends_with(".state")) files.push_back(entry->path());
   }
+  if (error)
+    throw Error(ExitStatus::File, "cannot read the folder \"" + path + "\": " + error.message(), {},
+                "merge reads the parts in this folder, so you need the permission to list it");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -144,6 +148,13 @@ std::string IndexRanges(const std::vector<int>& indices) {
     begin = end;
   }
   return text;
+}
+
+std::string MissingText(const std::vector<int>& indices, int count, const std::string& noun) {
+  if (count == 1) return "the only " + noun + " is missing";
+  const bool isOne = indices.size() == 1;
+  return noun + (isOne ? " " : "s ") + IndexRanges(indices) + " of the " + std::to_string(count) +
+         " " + noun + "s " + (isOne ? "is" : "are") + " missing";
 }
 
 }  // namespace exphoton::cli

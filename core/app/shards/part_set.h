@@ -54,5 +54,7 @@ std::vector<std::string> PartFilesAt(const std::string& path);
 
 // Returns "3,7-9" for 3, 7, 8, 9, the form that the option --array of Slurm takes.
 std::string IndexRanges(const std::vector<int>& indices);
+// Returns "part 2 of the 3 parts is missing" for the noun "part". `indices` is not empty.
+std::string MissingText(const std::vector<int>& indices, int count, const std::string& noun);
 
 }  // namespace exphoton::cli

@@ -74,7 +74,8 @@ TEST_F(PhotonShares, ThatAreMissingAreNamedOrShotAgain) {
   EXPECT_EQ(Photons({"--merge", "parts", "--missing"}).out, "2-3,5\n");
   const ProgramResult refused = Photons({"--merge", "parts", "-o", "merged.expm"});
   EXPECT_EQ(refused.status, 3) << refused.err;
-  EXPECT_NE(refused.err.find("shares 2-3,5 of 5 are missing"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("shares 2-3,5 of the 5 shares are missing"), std::string::npos)
+      << refused.err;
   EXPECT_FALSE(Exists("merged.expm"));
   EXPECT_EQ(Photons({"--merge", "parts", "-o", "merged.expm", "--incomplete"}).status, 0);
   EXPECT_TRUE(Read("merged.expm") == Read("one.expm"));

@@ -213,10 +213,48 @@ TEST_F(Shards, DamagedPartsAreNamedAndRenderedAgain) {
   EXPECT_EQ(Read("merged.exr"), one);
 }
 
+TEST_F(Shards, APartWithADamagedBeginningHasToBeRemoved) {
+  RenderParts(2);
+  Write(PartName(1, 2), std::string(8, '\0') + Read(PartName(1, 2)).substr(8));
+  const ProgramResult render = RenderPart(1, 2);
+  EXPECT_EQ(render.status, 3);
+  ExpectIn("hint: remove it, or name another folder with -o", render.err);
+  ExpectNotIn("render this part again", render.err);
+  ExpectRefused(3, "part 1 of the 2 parts is missing or unusable");
+  ExpectRefused(3, "hint: if it is a part, remove it and render it again");
+  EXPECT_EQ(Missing(), "1\n");
+  Remove(PartName(1, 2));
+  EXPECT_EQ(RenderPart(1, 2).status, 0);
+  EXPECT_EQ(Merge().status, 0);
+}
+
+TEST_F(Shards, ProblemsThatNoRenderRemovesEndTheListOfMissingParts) {
+  const auto expectFailure = [this](int status, const std::string& reason) {
+    const ProgramResult result = Run({"merge", "--missing", "parts/"});
+    EXPECT_EQ(result.status, status);
+    EXPECT_EQ(result.out, "");
+    ExpectIn(reason, result.err);
+  };
+  RenderParts(2);
+  RenderPart(2, 3);
+  expectFailure(1, "is one of 3 parts, but");
+  Remove(PartName(2, 2));
+  expectFailure(1, "is one of 3 parts, but");
+  Remove(PartName(2, 3));
+  RenderPart(2, 2, {"--seed", "5"});
+  expectFailure(1, "are parts of different pictures");
+  Remove(PartName(2, 2));
+  RenderPart(2, 2);
+  Write("parts/part-copy.state", Read(PartName(2, 2)).substr(0, 900));
+  expectFailure(3, "it is cut off or damaged");
+  Remove(PartName(1, 2));
+  EXPECT_EQ(Missing(), "1\n");
+}
+
 TEST_F(Shards, MissingPartsAreListedForSlurm) {
   for (const int index : {1, 4, 9}) RenderPart(index, 10);
   EXPECT_EQ(Missing(), "2-3,5-8,10\n");
-  ExpectRefused(3, "parts 2-3,5-8,10 of 10 are missing");
+  ExpectRefused(3, "parts 2-3,5-8,10 of the 10 parts are missing or unusable");
   EXPECT_EQ(Run({"merge", "--missing", "--shards", "12", "parts/"}).status, 1);
   const ProgramResult none = Run({"merge", "--missing", "absent/"});
   EXPECT_EQ(none.status, 3);
