@@ -213,10 +213,12 @@ StateFile::StateFile(const std::string& path, StateUse use) : path_(path), use_(
 }
 
 void StateFile::Fail(const std::string& why, bool isDamaged) const {
-  const auto [refusal, hint] = [this]() -> std::pair<const char*, const char*> {
+  const auto [refusal, hint] = [&]() -> std::pair<const char*, const char*> {
     switch (use_) {
-      case StateUse::Part:
-        return {"cannot use the part", "render this part again"};
+      case StateUse::Part:  // a render replaces damaged parts only
+        return {"cannot use the part", isDamaged
+                                           ? "render this part again"
+                                           : "if it is a part, remove it and render it again"};
       case StateUse::Photons:
         return {"cannot use the photons", "exphoton photons SCENE -o FILE shoots them again"};
       case StateUse::Resume:

@@ -18,26 +18,39 @@ bool PartFileExists(const std::string& path) {
   return lstat(path.c_str(), &status) == 0;
 }
 
+constexpr const char* kElsewhere = "remove it, or name another folder with -o";
+
+// Throws DamagedState for a part that may be replaced, and Error for any other file.
+StateFile OpenPart(const std::string& path) {
+  try {
+    return StateFile(path, StateUse::Part);
+  } catch (const DamagedState&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(error.Status(), error.what(), {}, kElsewhere);
+  }
+}
+
 // Returns whether the file is this part. Throws Error if it is a file that must not be replaced.
 bool HasPart(const PartJob& part) {
   if (!PartFileExists(part.path)) return false;
-  const char* const elsewhere = "-o FOLDER names another folder for the parts";
   try {
-    const StateFile file(part.path, StateUse::Part);
+    const StateFile file = OpenPart(part.path);
     if (!file.Has(kShardSection))
       throw Error(ExitStatus::File, "\"" + part.path + "\" is not a part of a picture", {},
-                  elsewhere);
+                  kElsewhere);
     ShardLayout layout;
     LoadSection(kShardSection, &layout, file);
     const std::string differences = part.identity.Differences(StateIdentity::Of(file));
     if (!differences.empty())
       throw Error(ExitStatus::CommandLine,
                   "\"" + part.path + "\" is a part of another picture: " + differences, {},
-                  elsewhere);
+                  kElsewhere);
     return layout.shard.index == part.command.shard->index &&
            layout.shard.count == part.command.shard->count;
   } catch (const DamagedState& error) {
-    part.log.Warning(std::string(error.what()) + "; it is rendered again");
+    // The part keeps the messages of part.log, and the new part has no damage.
+    Log(Log::Level::Quiet).Warning(std::string(error.what()) + "; it is rendered again");
     return false;
   }
 }

@@ -189,6 +189,7 @@ TEST_F(Shards, APartThatExistsIsSkipped) {
   Write(PartName(2, 2), "notes that are no state at all");
   const ProgramResult notes = RenderPart(2, 2);
   EXPECT_EQ(notes.status, 3);
+  ExpectIn("hint: remove it, or name another folder with -o", notes.err);
   EXPECT_EQ(Read(PartName(2, 2)), "notes that are no state at all");
 }
 
@@ -207,9 +208,13 @@ TEST_F(Shards, DamagedPartsAreNamedAndRenderedAgain) {
     ExpectRefused(3, "cannot use the part \"" + PartName(2, 3) + "\": it ");
     EXPECT_EQ(Missing(), "2\n") << i;
   }
-  EXPECT_EQ(RenderPart(2, 3).status, 0);
+  const ProgramResult again = RenderPart(2, 3);
+  EXPECT_EQ(again.status, 0);
+  ExpectIn("its checksum does not match; it is rendered again", again.err);
   EXPECT_EQ(Missing(), "");
-  EXPECT_EQ(Merge().status, 0);
+  const ProgramResult merged = Merge();
+  EXPECT_EQ(merged.status, 0);
+  ExpectNotIn("it is rendered again", merged.err);
   EXPECT_EQ(Read("merged.exr"), one);
 }
 
