@@ -15,12 +15,32 @@
 namespace exphoton::cli {
 namespace {
 
+// Returns whether a text has the form of a whole number, even of one that does not fit 64 bits.
+bool IsWholeNumber(const std::string& text) {
+  const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
+  std::int64_t value = 0;
+  return (text.size() > sign && text.find_first_not_of("0123456789", sign) == std::string::npos) ||
+         CLI::detail::lexical_cast(text, value);
+}
+
+// Returns a message for a text that is no whole number. CLI11 would say "could not convert".
+std::string FitsWhole(const std::string& text) {
+  return IsWholeNumber(text) ? "" : '"' + text + "\" is not a whole number";
+}
+
 // Returns a message for a number that does not fit 64 bits without a sign. CLI11 would wrap it.
 std::string FitsUnsigned(const std::string& text) {
   errno = 0;
   std::strtoull(text.c_str(), nullptr, 0);
-  const bool fits = text.find('-') == std::string::npos && errno != ERANGE;
+  const bool fits = IsWholeNumber(text) && text.find('-') == std::string::npos && errno != ERANGE;
   return fits ? "" : text + " is not a whole number from 0 to 18446744073709551615";
+}
+
+// Returns a message for an empty value, which often comes from an unset variable of a shell.
+std::string IsNotEmpty(const std::string& text) { return text.empty() ? "the value is empty" : ""; }
+// Positional arguments are checked where they are used: scenes and files must exist.
+CLI::Option* WithoutEmpty(CLI::Option* option) {
+  return option->get_positional() ? option : option->check(IsNotEmpty);
 }
 
 bool IsNumber(const std::string& text, double* value) {
@@ -155,14 +175,16 @@ OptionParser::~OptionParser() = default;
 
 OptionHandle OptionParser::Add(const std::string& names, std::string& target,
                                const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(WithoutEmpty(implementation_->app.add_option(names, target, help)));
 }
 OptionHandle OptionParser::Add(const std::string& names, int& target, const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(
+      implementation_->app.add_option(names, target, help)->check(FitsWhole));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::int64_t& target,
                                const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(
+      implementation_->app.add_option(names, target, help)->check(FitsWhole));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::uint64_t& target,
                                const std::string& help) {
@@ -184,11 +206,11 @@ OptionHandle OptionParser::Add(const std::string& names, std::optional<double>& 
 }
 OptionHandle OptionParser::Add(const std::string& names, std::optional<std::string>& target,
                                const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(WithoutEmpty(implementation_->app.add_option(names, target, help)));
 }
 OptionHandle OptionParser::Add(const std::string& names, std::vector<std::string>& target,
                                const std::string& help) {
-  return implementation_->Keep(implementation_->app.add_option(names, target, help));
+  return implementation_->Keep(WithoutEmpty(implementation_->app.add_option(names, target, help)));
 }
 OptionHandle OptionParser::AddFlag(const std::string& name, bool& target, const std::string& help) {
   return implementation_->Keep(implementation_->app.add_flag(name, target, help));

@@ -147,18 +147,32 @@ TEST(RenderOption, RefusesValuesOutOfRange) {
         Words{"--effects", "caustics=maybe"}, Words{"--limits", "memory=2"},
         Words{"--aov", "Colour"}, Words{"--unknown"}})
     EXPECT_NE(ErrorOfOptions(words), "") << words[0] << ' ' << words.back();
-  for (const char* seed : {"-1", "18446744073709551616", "99999999999999999999"})
+  for (const char* seed : {"-1", "1e3", "x", "18446744073709551616", "99999999999999999999"})
     EXPECT_EQ(
         ErrorOfOptions({"--seed", seed}),
         "--seed: " + std::string(seed) + " is not a whole number from 0 to 18446744073709551615");
   for (const char* error : {"0", "-1", "1e9", "nan"})
     EXPECT_EQ(ErrorOfOptions({"--target-error", error}), "--target-error takes a number above 0")
         << error;
+  for (const char* size : {"99999999x2", "2x1000000", "0x2"})
+    EXPECT_EQ(
+        ErrorOfOptions({"--resolution", size}),
+        "--resolution takes widths and heights from 1 to 999999, not \"" + std::string(size) + '"');
+  EXPECT_EQ(ErrorOfOptions({"--spp", "1e3"}), "--spp: \"1e3\" is not a whole number");
+  EXPECT_EQ(ErrorOfOptions({"--nthreads", "1.5"}), "--nthreads: \"1.5\" is not a whole number");
   for (const char* option : {"--target-error", "--frame-time", "--certify-share"})
     EXPECT_EQ(ErrorOfOptions({option, "5%"}), std::string(option) + ": 5% is not a number");
   EXPECT_EQ(ErrorOfOptions({"--spp", "1", "--spp", "2"}), "--spp is given more than once");
   EXPECT_EQ(Parse({"--nthreads", "0"}).threadCount, 0);
   EXPECT_EQ(Parse({"--spp", "1"}).load.samplesPerPixel, 1);
+}
+
+TEST(RenderOption, RefusesEmptyValues) {
+  for (const char* option :
+       {"--outfile", "--preview", "--stats-json", "--state", "--photons", "--aov", "--limits",
+        "--display", "--plugin-dir", "--integrator", "--resolution", "--shard", "--set"})
+    EXPECT_EQ(ErrorOfOptions({option, ""}), std::string(option) + ": the value is empty");
+  EXPECT_EQ(ErrorOfOptions({"-o", ""}), "--outfile: the value is empty");
 }
 
 TEST(Durations, AreInSecondsMinutesOrHours) {
