@@ -13,6 +13,7 @@
 #include "core/app/options/option_parser.h"
 #include "core/app/options/values.h"
 #include "core/app/output/output_names.h"
+#include "core/base/format.h"
 #include "core/parser/effect_choice.h"
 #include "core/plugins/registry.h"
 
@@ -336,7 +337,8 @@ void TakeRaw(const RawOptions& raw, RenderCommand* command) {
   if (!raw.writeEvery.empty()) command->writeEvery = ParseDuration("--write-every", raw.writeEvery);
   if (!raw.display.empty()) command->display = ParseViewerAddress(raw.display);
   if (command->targetError && !(*command->targetError > 0 && *command->targetError < 1e9))
-    FailUsage("--target-error takes a number above 0");
+    FailUsage(Format("--target-error takes a number above 0 and below 1e9, not %g",
+                     *command->targetError));
   command->progressiveAlpha = raw.progressiveAlpha.value_or(command->progressiveAlpha);
   command->certifiedShare = raw.certifiedShare.value_or(command->certifiedShare);
   TakeAccuracy(raw.accuracy, command);

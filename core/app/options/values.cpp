@@ -73,11 +73,15 @@ PixelBounds ParsePixel(const std::string& text, const std::string& option) {
 void AddResolution(const std::string& text, std::vector<ParameterOverride>* overrides) {
   const std::size_t x = text.find('x');
   const auto isNumber = [](const std::string& part) {
-    return !part.empty() && part.size() < 7 &&
-           part.find_first_not_of("0123456789") == std::string::npos && part != "0";
+    return !part.empty() && part.find_first_not_of("0123456789") == std::string::npos;
+  };
+  const auto isInRange = [](const std::string& part) {
+    return part.size() < 7 && part.find_first_not_of('0') != std::string::npos;
   };
   if (x == std::string::npos || !isNumber(text.substr(0, x)) || !isNumber(text.substr(x + 1)))
     FailUsage("--resolution takes WIDTHxHEIGHT, for example 128x96, not \"" + text + "\"");
+  if (!isInRange(text.substr(0, x)) || !isInRange(text.substr(x + 1)))
+    FailUsage("--resolution takes widths and heights from 1 to 999999, not \"" + text + '"');
   overrides->push_back({"Film", "xresolution", text.substr(0, x)});
   overrides->push_back({"Film", "yresolution", text.substr(x + 1)});
 }

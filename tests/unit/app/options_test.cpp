@@ -152,7 +152,8 @@ TEST(RenderOption, RefusesValuesOutOfRange) {
         ErrorOfOptions({"--seed", seed}),
         "--seed: " + std::string(seed) + " is not a whole number from 0 to 18446744073709551615");
   for (const char* error : {"0", "-1", "1e9", "nan"})
-    EXPECT_EQ(ErrorOfOptions({"--target-error", error}), "--target-error takes a number above 0")
+    EXPECT_TRUE(ErrorOfOptions({"--target-error", error})
+                    .starts_with("--target-error takes a number above 0 and below 1e9, not "))
         << error;
   for (const char* size : {"99999999x2", "2x1000000", "0x2"})
     EXPECT_EQ(
