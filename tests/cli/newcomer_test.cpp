@@ -58,6 +58,33 @@ TEST_F(Newcomer, AMistypedCommandRendersNothing) {
   EXPECT_EQ(Files(), Names{"scene.pbrt"});
 }
 
+TEST_F(Newcomer, HelpTakesTheNameOfACommand) {
+  const ProgramResult merge = Run({"help", "merge"});
+  EXPECT_EQ(merge.status, 0);
+  EXPECT_EQ(merge.out, Run({"merge", "--help"}).out);
+  EXPECT_EQ(Run({"help"}).out, Run({"--help"}).out);
+  EXPECT_EQ(Run({"help", "help"}).out, Run({"--help"}).out);
+  const ProgramResult wrong = Run({"help", "mrge"});
+  EXPECT_EQ(wrong.status, 1);
+  EXPECT_TRUE(Has(wrong.err, "there is no command \"mrge\"")) << wrong.err;
+  EXPECT_TRUE(Has(wrong.err, "did you mean \"merge\"?")) << wrong.err;
+  EXPECT_TRUE(Has(Run({"help", "nosuch"}).err, "exphoton --help lists the commands"));
+  EXPECT_EQ(Run({"help", "merge", "info"}).status, 1);
+}
+
+TEST_F(Newcomer, AFolderOfPluginsThatIsNotThereIsAnError) {
+  for (const Names& command : {Names{"scene.pbrt"}, {"plugins"}, {"merge", ".", "-o", "a.exr"}})
+    for (const char* folder : {"nosuch", "scene.pbrt"}) {
+      Names words = command;
+      words.insert(words.end(), {"--plugin-dir", folder});
+      const ProgramResult result = Run(words);
+      EXPECT_EQ(result.status, 3) << command[0];
+      EXPECT_TRUE(Has(result.err, "cannot look for plugins in \"" + std::string(folder) + '"'))
+          << result.err;
+    }
+  EXPECT_EQ(Files(), Names{"scene.pbrt"});
+}
+
 TEST_F(Newcomer, AnUnreadableSceneStopsAllOthers) {
   const ProgramResult result = Run({"scene.pbrt", "scen.pbrt"});
   EXPECT_EQ(result.status, 3);

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/app/budget/budget_command.h"
@@ -28,6 +29,7 @@
 #include "core/app/shards/merge_command.h"
 #include "core/app/study/study_command.h"
 #include "core/base/error.h"
+#include "core/params/suggestions.h"
 
 namespace exphoton::cli {
 namespace {
@@ -41,6 +43,23 @@ int RunScenes(const std::vector<std::string>& program, const std::vector<std::st
     result = command.frames ? RunFrames(command) : RunRender(command);
   });
   return status ? status : result;
+}
+
+// `names` follow the word "help". An option among them is ignored: it can only ask for help, too.
+int RunHelp(const std::vector<std::string>& program, std::vector<std::string> names) {
+  std::erase_if(names, [](const std::string& name) { return name.starts_with("-"); });
+  if (names.empty() || names == std::vector<std::string>{"help"})
+    return RunScenes(program, {"--help"}, RenderMode::Render);
+  return Guarded([&] {
+    if (names.size() > 1) FailUsage("help is for one command", "for example exphoton help merge");
+    const std::vector<std::string> known = CommandNames();
+    if (std::ranges::find(known, names[0]) == known.end()) {
+      const std::string hint = DidYouMean(names[0], known);
+      FailUsage("there is no command \"" + names[0] + '"',
+                hint.empty() ? "exphoton --help lists the commands" : hint);
+    }
+    RunProgram({program[0], names[0], "--help"});
+  });
 }
 
 // Returns whether standard input may hold a scene: it is a pipe, a socket or a file, and neither a
@@ -64,7 +83,7 @@ int RunProgram(const std::vector<std::string>& arguments) {
     std::fputs(ShortUsage(), stderr);
     return int(ExitStatus::CommandLine);
   }
-  if (command == "help") return RunScenes(arguments, {"--help"}, RenderMode::Render);
+  if (command == "help") return RunHelp(arguments, rest);
   if (command == "render") return RunScenes(arguments, rest, RenderMode::Render);
   if (command == "explain") return RunScenes(arguments, rest, RenderMode::Explain);
   if (command == "plugins") return RunPlugins(rest);
