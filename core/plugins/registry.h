@@ -24,7 +24,8 @@ class PluginRegistry {
 
   void SetLog(Log* log) { log_ = log; }  // for later messages
 
-  // Returns --plugin-dir, PBRT_SEARCHPATH and the folders beside the program, in this order.
+  // Returns `extra` (--plugin-dir), PBRT_SEARCHPATH and the folders beside the program, in this
+  // order. Throws Error(File) if one of `extra` is no folder.
   static std::vector<std::string> DefaultFolders(const std::vector<std::string>& extra);
 
   // Returns the factory of that kind and plugin name, after resolving aliases ("diffuse" is

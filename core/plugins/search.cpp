@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "core/base/error.h"
 #include "core/plugins/library.h"
 #include "core/plugins/registry.h"
 
@@ -163,6 +164,15 @@ std::vector<std::string> PluginNamesIn(const PluginFolders& folders, PluginKind 
 }
 
 std::vector<std::string> PluginRegistry::DefaultFolders(const std::vector<std::string>& extra) {
+  for (const std::string& folder : extra) {
+    std::error_code error;
+    const fs::file_status status = fs::status(folder, error);
+    if (!fs::is_directory(status))
+      throw Error(ExitStatus::File,
+                  "cannot look for plugins in \"" + folder + "\" (--plugin-dir): " +
+                      (fs::exists(status) ? "it is no folder" : "there is no such folder"),
+                  {}, "name a folder that holds plugins, or folders of them such as materials/");
+  }
   std::vector<std::string> folders = extra;
   const char* variable = std::getenv("PBRT_SEARCHPATH");
   std::string rest = variable ? variable : "";

@@ -360,10 +360,10 @@ TEST_F(Loader, AliasesStandForTheirPlugins) {
 
 TEST_F(Loader, FoldersComeFromTheCommandLineTheEnvironmentAndTheProgram) {
   setenv("PBRT_SEARCHPATH", "/one::/two:", 1);
-  const std::vector<std::string> folders = PluginRegistry::DefaultFolders({"/zero"});
+  const std::vector<std::string> folders = PluginRegistry::DefaultFolders({"/usr"});
   unsetenv("PBRT_SEARCHPATH");
   ASSERT_EQ(folders.size(), 4u);
-  EXPECT_EQ(folders[0], "/zero");
+  EXPECT_EQ(folders[0], "/usr");
   EXPECT_EQ(folders[1], "/one");
   EXPECT_EQ(folders[2], "/two");
   EXPECT_EQ(fs::canonical(folders[3]), fs::canonical(kLoaderPlugins));

@@ -90,6 +90,7 @@ MergeOptions ParseMergeOptions(const std::vector<std::string>& arguments) {
   if (options.asHalf && options.asFloat) FailUsage("--half and --float exclude each other");
   CheckPngOptions(options.png);
   if (!options.listsMissing) CheckMergedPicture(options);
+  options.pluginFolders = PluginRegistry::DefaultFolders(options.pluginFolders);
   return options;
 }
 
@@ -229,7 +230,7 @@ class Merge {
     std::unique_ptr<Filter> filter;
     std::unique_ptr<const SplatWeights> weights;
     if (parts_.Layout().isSplatted) {
-      PluginRegistry registry(PluginRegistry::DefaultFolders(options_.pluginFolders), &log_);
+      PluginRegistry registry(options_.pluginFolders, &log_);
       BindContext bind;
       bind.log = &log_;
       bind.what = "filter \"" + record_.scene.filter + "\"";

@@ -74,8 +74,7 @@ TEST(RenderOption, OfTheSceneArrivesInItsField) {
   EXPECT_EQ(Parse({"--dialect", "v1"}).load.dialect, Dialect::V1);
   EXPECT_TRUE(Parse({"--strict"}).load.isStrict);
   EXPECT_TRUE(Parse({"--allow-scene-plugins"}).load.allowsScenePlugins);
-  EXPECT_EQ(Parse({"--plugin-dir", "/first", "--plugin-dir", "/second"}).load.pluginFolders[0],
-            "/first");
+  EXPECT_EQ(Parse({"--plugin-dir", "/usr", "--plugin-dir", "/"}).load.pluginFolders[0], "/usr");
   const auto sets = Parse({"--set", "Film.xresolution=9", "--set", "Sampler.a.b=c=d"});
   ASSERT_EQ(sets.load.parameters.size(), 2u);
   EXPECT_EQ(sets.load.parameters[0].directive, "Film");
