@@ -102,6 +102,20 @@ bool HasPlainParts(const Setting& setting) {
   });
 }
 
+// Parses a time. Throws std::invalid_argument.
+double ParseSeconds(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, value);
+  const std::string unit(next, end);
+  const double factor = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
+  if (error != std::errc{} || !(value > 0) || factor == 0 || !(value * factor < 1e9))
+    throw std::invalid_argument(
+        "--budgets takes times above 0 in seconds or with a unit, such as 90s, 30m or 2h, not \"" +
+        text + "\"");
+  return value * factor;
+}
+
 // Returns eight digits that differ for different texts (FNV-1a).
 std::string Digest(const std::string& text) {
   std::uint64_t hash = 0xcbf29ce484222325ull;
@@ -172,22 +186,9 @@ VariedParameter ParseVariedParameter(const std::string& text) {
   return varied;
 }
 
-double ParseSeconds(const std::string& text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [next, error] = std::from_chars(text.data(), end, value);
-  const std::string unit(next, end);
-  const double factor = unit.empty() || unit == "s" ? 1 : unit == "m" ? 60 : unit == "h" ? 3600 : 0;
-  if (error != std::errc{} || !(value > 0) || factor == 0 || !(value * factor < 1e9))
-    throw std::invalid_argument(
-        "a time must be a number of seconds or have a unit, such as 90s, 30m or 2h, not \"" + text +
-        "\"");
-  return value * factor;
-}
-
 std::vector<double> ParseBudgets(const std::string& text) {
   std::vector<std::string> parts = SplitList(text);
-  if (parts.empty()) throw std::invalid_argument("no budget in \"" + text + "\"");
+  if (parts.empty()) throw std::invalid_argument("--budgets names no time, in \"" + text + "\"");
   const std::string& last = parts.back();
   const char unit = last.back();
   std::vector<double> budgets;

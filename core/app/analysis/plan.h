@@ -42,9 +42,8 @@ struct StudyPlan {
 Setting ParseSetting(const std::string& text);
 // Parses "[INTEGRATOR:]name=value,value,...". Throws std::invalid_argument.
 VariedParameter ParseVariedParameter(const std::string& text);
-// Parse "1,4,16,64s", also with units m and h, to seconds. Throw std::invalid_argument.
+// Parses "1,4,16,64s", also with units m and h, to seconds. Throws std::invalid_argument.
 std::vector<double> ParseBudgets(const std::string& text);
-double ParseSeconds(const std::string& text);
 std::vector<std::string> SplitList(const std::string& text);  // at commas; drops empty parts
 
 // ParameterLookup says which integrators have which parameters.

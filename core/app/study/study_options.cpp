@@ -106,8 +106,8 @@ std::string OptionName(const std::string& argument) {
 // can be repeated, and options that it excludes. The last one of other options counts anyway, and
 // --set counts for each parameter by itself.
 std::vector<std::string> ReplacedBy(const std::string& option) {
-  if (option == "--reference" || option == "--make-reference")
-    return {"--reference", "--make-reference"};
+  if (option == "--reference") return {"--reference", "--make-reference", "--reference-time"};
+  if (option == "--make-reference") return {"--reference", "--make-reference"};
   if (option == "--setting" || option == "--vary" || option == "--crop") return {option};
   return {};
 }
@@ -257,7 +257,9 @@ void TakePlan(const RawStudyOptions& raw, StudyOptions* options) {
     options->plan.varied.push_back(study::ParseVariedParameter(text));
   if (!raw.budgets.empty()) options->plan.budgets = study::ParseBudgets(raw.budgets);
   if (!raw.referenceTime.empty())
-    options->referenceSeconds = study::ParseSeconds(raw.referenceTime);
+    options->referenceSeconds = ParseDuration("--reference-time", raw.referenceTime);
+  if (!raw.referenceTime.empty() && options->makeReference.empty())
+    FailUsage("--reference-time needs --make-reference", "--make-reference \"path maxdepth=100\"");
   if (!options->makeReference.empty()) study::ParseSetting(options->makeReference);
   if (options->plan.bases.empty())
     for (const char* name : {"exphotonmap", "photonmap", "path"})

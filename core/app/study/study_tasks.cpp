@@ -77,6 +77,15 @@ ArrayJob StudyJob(const StudyOptions& options) {
   return job;
 }
 
+// Study files may hold these options, because they are read both with and without --tasks.
+void CheckArrayWords(const StudyOptions& options) {
+  if (options.taskCount > 0) return;
+  for (const std::string& argument : options.arguments)
+    for (const std::string name : {"--share-nodes", "--rounds", "--engine"})
+      if (argument == name || argument.starts_with(name + '='))
+        FailUsage(name + " needs --tasks N, the number of jobs");
+}
+
 }  // namespace
 
 StudyTask ParseStudyTask(const std::string& text) {
@@ -99,6 +108,7 @@ void CheckTasks(const StudyOptions& options) {
   CheckArrayOptions(options.array);
   if (options.taskCount == 0 && (options.array.submits || !options.array.sbatch.empty()))
     FailUsage("--submit and --sbatch need --tasks N, the number of jobs");
+  CheckArrayWords(options);
   if (options.isAlone && !options.task) FailUsage("--alone needs --task I/N");
   if (options.missingOf > 0 && options.tasksFolder.empty())
     FailUsage("--missing needs --from DIR, the folder of the tasks");

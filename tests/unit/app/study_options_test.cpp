@@ -69,7 +69,7 @@ TEST_F(StudyOptionsTest, ArriveInTheirFields) {
   EXPECT_EQ(Parse({"--footprint-spp", "5"}).footprintSamples, 5);
   EXPECT_EQ(Parse({"--clock", "wall"}).clock, "wall");
   EXPECT_EQ(Parse({"--targets", ".02,.5, .1"}).targets, (std::vector<double>{.5, .1, .02}));
-  EXPECT_EQ(Parse({"--reference-time", "2m"}).referenceSeconds, 120);
+  EXPECT_EQ(Parse({"--reference-time", "2m", "--make-reference", "path"}).referenceSeconds, 120);
   EXPECT_EQ(Parse({"--cropwindow", "0,.5,0,1"}).cropWindow, "0,.5,0,1");
   EXPECT_EQ(Parse({"--crop", "0,.5,0,1", "--crop", "0,1,0,1"}).crops,
             (Arguments{"0,.5,0,1", "0,1,0,1"}));
@@ -114,6 +114,14 @@ TEST_F(StudyOptionsTest, RefuseWhatDoesNotFit) {
             "--reference: one picture, or two halves of it");
   EXPECT_EQ(ErrorOf({"--reference", a, "--make-reference", "path"}),
             "--reference and --make-reference exclude each other");
+  EXPECT_EQ(ErrorOf({"--reference-time", "2m"}), "--reference-time needs --make-reference");
+  EXPECT_EQ(ErrorOf({"--reference-time", "0", "--make-reference", "path"}),
+            "--reference-time takes a time such as 90, 90s, 2m or 1h, not \"0\"");
+  EXPECT_TRUE(ErrorOf({"--budgets", "1,0"}).starts_with("--budgets takes times above 0"));
+  for (const char* option : {"--share-nodes", "--rounds=4", "--engine=slurm"})
+    EXPECT_EQ(ErrorOf({option}), std::string(option).substr(0, std::string(option).find('=')) +
+                                     " needs --tasks N, the number of jobs");
+  EXPECT_EQ(ErrorOf({"--title", ""}), "--title: the value is empty");
   EXPECT_THROW(ParseStudyOptions({"--out", "out"}), Error);
   EXPECT_THROW(ParseStudyOptions({a}), Error);
   EXPECT_NO_THROW(ParseStudyOptions({a, "--plan"}));
@@ -160,6 +168,13 @@ TEST_F(StudyOptionsTest, OfTheCommandLineReplaceLinesOfAStudyFile) {
   EXPECT_EQ(ParseStudyOptions({file, "--crop", "0,.5,0,1"}).crops, Arguments{"0,.5,0,1"});
   EXPECT_EQ(ParseStudyOptions({file, "--set", "Film.b=2"}).sets,
             (Arguments{"Film.a=1", "Film.b=2"}));
+  // The time is for a reference that is made.
+  WriteFile(file, "scene s.pbrt\nout " + folder_.File("results") +
+                      "\nmake-reference path\nreference-time 2m\nshare-nodes\nrounds 4\n");
+  EXPECT_EQ(ParseStudyOptions({file}).referenceSeconds, 120);
+  EXPECT_EQ(ParseStudyOptions({file, "--reference", a}).references, Arguments{a});
+  EXPECT_EQ(ParseStudyOptions({file, "--make-reference", "igi"}).referenceSeconds, 120);
+  WriteFile(file, "scene s.pbrt\nout " + folder_.File("results") + "\nreference a.exr\n");
   // They exclude each other.
   const StudyOptions made = ParseStudyOptions({file, "--make-reference", "path"});
   EXPECT_EQ(made.makeReference, "path");

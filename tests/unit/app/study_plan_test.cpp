@@ -54,9 +54,15 @@ TEST(StudyPlan, ReadsKnobsAndBudgets) {
   EXPECT_THROW(ParseVariedParameter("spp=,"), std::invalid_argument);
   EXPECT_EQ(ParseBudgets("1,4,16s"), (std::vector<double>{1, 4, 16}));
   EXPECT_EQ(ParseBudgets("1,2m"), (std::vector<double>{60, 120}));
-  EXPECT_EQ(ParseSeconds("1.5h"), 5400);
-  for (const char* wrong : {"", "0", "-1", "4x", "s"})
-    EXPECT_THROW(ParseSeconds(wrong), std::invalid_argument) << wrong;
+  EXPECT_EQ(ParseBudgets("1.5h"), std::vector<double>{5400});
+  for (const char* wrong : {"", "0", "-1", "4x", "s", "1,0"}) {
+    try {
+      ParseBudgets(wrong);
+      ADD_FAILURE() << wrong;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_TRUE(std::string(error.what()).starts_with("--budgets ")) << error.what();
+    }
+  }
 }
 
 TEST(StudyPlan, MultipliesKnobsWhereTheyApply) {
