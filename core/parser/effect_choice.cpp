@@ -3,6 +3,7 @@
 #include "core/parser/effect_choice.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,8 @@ std::string Loss(Feature feature) {
   }
 }
 
-void ApplyOne(const std::string& item, RequiredFeatures* plan, Log& log) {
+// `given` has the effects of the items before this one.
+void ApplyOne(const std::string& item, std::set<Feature>* given, RequiredFeatures* plan, Log& log) {
   const std::size_t equals = item.find('=');
   const std::string name = item.substr(0, equals);
   const std::string value = equals == std::string::npos ? "" : item.substr(equals + 1);
@@ -50,6 +52,7 @@ void ApplyOne(const std::string& item, RequiredFeatures* plan, Log& log) {
   if (found == names.end()) FailChoice("unknown effect \"" + name + "\"", DidYouMean(name, names));
   if (value != "on" && value != "off") FailChoice("\"" + item + "\" must end in =on or =off");
   const auto feature = Feature(found - names.begin());
+  if (!given->insert(feature).second) FailChoice("\"" + name + "\" is given more than once");
   if (value == "off" && plan->Needs(feature))
     log.Warning("--effects " + item + " " + Loss(feature));
   plan->Set(feature, value == "on", "by --effects");
@@ -59,6 +62,7 @@ void ApplyOne(const std::string& item, RequiredFeatures* plan, Log& log) {
 
 RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice, Log& log) {
   if (choice == "auto") return plan;
+  std::set<Feature> given;
   for (std::size_t at = 0; at <= choice.size();) {
     const std::size_t end = std::min(choice.find(',', at), choice.size());
     const std::string item = choice.substr(at, end - at);
@@ -67,7 +71,7 @@ RequiredFeatures ChooseEffects(RequiredFeatures plan, const std::string& choice,
       all.notes = std::move(plan.notes);
       plan = std::move(all);
     } else {
-      ApplyOne(item, &plan, log);
+      ApplyOne(item, &given, &plan, log);
     }
     at = end + 1;
   }

@@ -175,6 +175,12 @@ TEST(RenderOption, RefusesEmptyValues) {
   EXPECT_EQ(ErrorOfOptions({"-o", ""}), "--outfile: the value is empty");
 }
 
+TEST(RenderOption, RefusesAnEffectThatIsGivenTwice) {
+  EXPECT_TRUE(ErrorOfOptions({"--effects", "caustics=off,lens=on,caustics=on"})
+                  .starts_with("--effects: \"caustics\" is given more than once"));
+  EXPECT_EQ(ErrorOfOptions({"--effects", "all,caustics=off,lens=on"}), "");
+}
+
 TEST(Durations, AreInSecondsMinutesOrHours) {
   EXPECT_EQ(ParseDuration("--t", "90"), 90);
   EXPECT_EQ(ParseDuration("--t", "90s"), 90);
