@@ -309,11 +309,18 @@ std::string ToJson(const Results& results) {
   return Written(json);
 }
 
+// Describes the fault of a text of JSON, without the words of the library.
+static std::string JsonFault(const nlohmann::json::exception& error) {
+  if (const auto* syntax = dynamic_cast<const nlohmann::json::parse_error*>(&error))
+    return "is cut off or damaged at byte " + std::to_string(syntax->byte);
+  return "lacks a value, or has one of another kind";
+}
+
 Results FromJson(const std::string& text) {
   try {
     return Parse(text);
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("results.json cannot be read: ") + error.what());
+    throw std::runtime_error("results.json " + JsonFault(error));
   }
 }
 
@@ -336,7 +343,7 @@ RunRow RowFromJson(const std::string& text) {
   try {
     return ToRow(Json::parse(text));
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(error.what());
+    throw std::runtime_error("the record of a run " + JsonFault(error));
   }
 }
 
@@ -356,8 +363,7 @@ void AddRunStatistics(const std::string& text, RunRow* row) {
     row->counters = ToValues(json.value("counters", Json::object()));
     row->certificate = ToValues(json.value("certificate", Json::object()));
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(std::string("the statistics of a run cannot be read: ") +
-                             error.what());
+    throw std::runtime_error("the text with the statistics of a run " + JsonFault(error));
   }
 }
 

@@ -42,6 +42,12 @@ int FailBySystem(ExitStatus status, const std::string& text, const std::error_co
   return Fail(status, text);
 }
 
+std::string FileSystemText(const std::filesystem::filesystem_error& error) {
+  const std::string path = error.path1().string();
+  return "cannot use " + (path.empty() ? "a file or folder" : '"' + path + '"') + ": " +
+         error.code().message();
+}
+
 // Handles all exceptions except std::bad_alloc, which it passes on. Formatting a message can throw
 // std::bad_alloc, too.
 int Try(void (*work)(const void*), const void* context) {
@@ -65,8 +71,7 @@ int Try(void (*work)(const void*), const void* context) {
   } catch (const std::length_error&) {
     return Fail(ExitStatus::Resource, "out of memory: a size is larger than the address space");
   } catch (const std::filesystem::filesystem_error& error) {
-    return FailBySystem(ExitStatus::File,
-                        std::string("cannot use a file or folder: ") + error.what(), error.code());
+    return FailBySystem(ExitStatus::File, FileSystemText(error), error.code());
   } catch (const std::system_error& error) {
     return FailBySystem(ExitStatus::Resource, error.what(), error.code());
   } catch (const std::exception& error) {

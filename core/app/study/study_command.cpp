@@ -239,7 +239,10 @@ int RunReport(const std::vector<std::string>& arguments) {
     try {
       results = study::FromJson(text);
     } catch (const std::runtime_error& error) {
-      throw Error(ExitStatus::File, folder + ": " + error.what());
+      throw Error(
+          ExitStatus::File, "cannot use the study in \"" + folder + "\": " + error.what(), {},
+          "exphoton study with the options of this study writes the file again, and repeats "
+          "no finished render");
     }
     if (!clock.empty()) results.clock = clock;
     StudyFolder own(folder);

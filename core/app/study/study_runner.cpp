@@ -13,6 +13,7 @@
 #include "core/app/process/signals.h"
 #include "core/app/study/study_tasks.h"
 #include "core/base/error.h"
+#include "core/base/format.h"
 
 namespace exphoton::cli {
 namespace {
@@ -166,7 +167,7 @@ std::vector<study::RunRow> StudyRunner::RunAll(const std::vector<study::Setting>
                   left > 0 ? (", about " + Duration(left) + " left").c_str() : "");
     Say(options_, text);
   }
-  if (found > 0) Say(options_, std::to_string(found) + " renders existed already");
+  if (found > 0) Say(options_, Counted(found, "render") + " existed already");
   return rows;
 }
 

@@ -77,6 +77,12 @@ TEST_F(ClusterScripts, TasksTakeTheThreadsThatTheUserStates) {
             std::string::npos);
 }
 
+TEST_F(ClusterScripts, AFolderWithATooLongNameIsNamed) {
+  const std::string name(300, 'a');
+  ExpectRefused(3, {"--shards", "2", "-o", "a.exr", "--folder", name},
+                "cannot use \"" + name + "/parts\": File name too long\n");
+}
+
 TEST_F(ClusterScripts, APictureThatNoMergeCanWriteIsRefusedBeforeAnyTask) {
   const std::string ending = "ends neither in .exr nor in .png";
   for (const char* name : {"a.jpg", "a", "a.exr.gz"})

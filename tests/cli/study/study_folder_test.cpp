@@ -56,6 +56,24 @@ TEST_F(StudyFolderTest, FilesThatAreAddedToAStudyStay) {
   EXPECT_TRUE(Exists("out/results.csv"));
 }
 
+TEST_F(StudyFolderTest, DamagedResultsAreNamedAndCanBeMadeAgain) {
+  Names one = Options("out");
+  one[5] = "spp=1";
+  ASSERT_EQ(Run(one).status, 0);
+  Write("out/results.json", Read("out/results.json").substr(0, 500));
+  const ProgramResult report = Run({"report", "out"});
+  EXPECT_EQ(report.status, 3);
+  EXPECT_NE(
+      report.err.find("in \"out\": results.json is cut off or damaged at byte 501\n    hint: "),
+      std::string::npos)
+      << report.err;
+  EXPECT_EQ(report.err.find("json.exception"), std::string::npos) << report.err;
+  Write("out/results.json", "{\"format\": 1}");
+  EXPECT_EQ(Run({"report", "out"}).err.find("json.exception"), std::string::npos);
+  EXPECT_NE(Run(one).err.find("1 render existed already"), std::string::npos);
+  EXPECT_EQ(Run({"report", "out"}).status, 0);
+}
+
 TEST_F(StudyFolderTest, ASceneCalledRunningIsNotRemoved) {
   fs::create_directory(Path("out"));
   ASSERT_EQ(Run(Options("out")).status, 0);
