@@ -3,6 +3,7 @@
 // tables of the MERL database, or text with samples at irregular directions (".brdf").
 #include "materials/measured/measured_brdf.h"
 
+#include "core/params/scene_path.h"
 #include "core/scattering/lobes/local_frame.h"
 #include "materials/common/surface_material.h"
 
@@ -79,7 +80,7 @@ std::unique_ptr<Material> Create(const Settings& settings, const MaterialContext
   try {
     brdf = cache.GetOrMake<MeasuredBrdf>(settings.fileName, read);
   } catch (const MeasurementError& error) {
-    throw ParamError{"filename", error.what(), ""};
+    throw ParamError{"filename", UnreadableFileText(settings.fileName, error.what()), ""};
   }
   if (brdf->Rho().MaxComponent() > kMaxReflectance)
     context.log.Warning("\"" + settings.fileName +

@@ -47,4 +47,11 @@ std::string TriedPathsText(const std::vector<std::string>& candidates) {
   return "tried " + text;
 }
 
+std::string UnreadableFileText(const std::string& path, const std::string& fault) {
+  if (fault.starts_with(path + ':') && !fault.starts_with(path + ": "))  // with a line number
+    return "names a file that cannot be read: " + fault;
+  const std::size_t begin = fault.starts_with(path + ": ") ? path.size() + 2 : 0;
+  return "names \"" + path + "\", which cannot be read: " + fault.substr(begin);
+}
+
 }  // namespace exphoton

@@ -24,6 +24,10 @@ std::string ResolveScenePath(const std::string& name, const SourceLocation& wher
 // Returns the hint of an error about a missing file: the paths that were tried.
 std::string TriedPathsText(const std::vector<std::string>& candidates);
 
+// Returns the text of a ParamError about a file that cannot be read: "names \"a.exr\", which cannot
+// be read: no such file". `fault` begins with the path and a colon, or is only the reason.
+std::string UnreadableFileText(const std::string& path, const std::string& fault);
+
 // Returns the file that includes, directly or not, the file of this location.
 const std::string& MainFileOf(const SourceLocation& where);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/imaging/image.h"
+#include "core/params/scene_path.h"
 
 namespace exphoton {
 
@@ -19,7 +20,7 @@ MapTexels ReadMapTexels(const std::string& name, const LightContext& context) {
   try {
     image = ReadImage(name);
   } catch (const ImageError& error) {
-    throw ParamError{"mapname", error.what(), ""};
+    throw ParamError{"mapname", UnreadableFileText(name, error.what()), ""};
   }
   const int channels[3] = {image.FindChannel("R"), image.FindChannel("G"), image.FindChannel("B")};
   if (channels[0] < 0 || channels[1] < 0 || channels[2] < 0)

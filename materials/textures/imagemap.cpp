@@ -9,6 +9,7 @@
 #include "core/imaging/files/srgb.h"
 #include "core/imaging/image.h"
 #include "core/imaging/mipmap.h"
+#include "core/params/scene_path.h"
 #include "materials/textures/common/mapping.h"
 
 namespace exphoton {
@@ -79,7 +80,7 @@ MipMap<T> ReadMipMap(const ImageSettings& settings, const TextureContext& contex
   try {
     image = ReadImage(settings.filename);
   } catch (const ImageError& error) {
-    throw ParamError{"filename", error.what(), ""};
+    throw ParamError{"filename", UnreadableFileText(settings.filename, error.what()), ""};
   }
   const int r = image.FindChannel("R"), g = image.FindChannel("G"), b = image.FindChannel("B");
   if (r < 0 || g < 0 || b < 0 || image.Width() < 1 || image.Height() < 1)

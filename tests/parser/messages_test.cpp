@@ -85,8 +85,13 @@ TEST(Messages, OfPluginsAndParameters) {
         "    hint: write \"float radius\"\n"}},
       {InWorld("Material \"matte\" \"texture Kd\" \"t\"\n"
                "Texture \"t\" \"color\" \"imagemap\" \"string filename\" \"none.tga\""),
-       {"parameter \"filename\" of color texture \"imagemap\" ", "none.tga: no such file",
-        "    hint: tried "}},
+       {"parameter \"filename\" of color texture \"imagemap\" names \"",
+        "none.tga\", which cannot be read: no such file\n", "    hint: tried "}},
+      {InWorld("Texture \"t\" \"color\" \"imagemap\" \"string filename\" \"/tmp\""),
+       {"\"imagemap\" names \"/tmp\", which cannot be read: is a directory\n"}},
+      {InWorld("LightSource \"infinite\" \"string mapname\" \"none.exr\""),
+       {"parameter \"mapname\" of light \"infinite\" names \"",
+        "none.exr\", which cannot be read: no such file\n"}},
   });
 }
 

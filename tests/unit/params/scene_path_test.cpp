@@ -45,5 +45,13 @@ TEST(ScenePath, AFileBesideTheMainFileIsFoundFromAnyDepth) {
   EXPECT_EQ(ResolveScenePath("none.png", where), folder.File("b/c/none.png"));
 }
 
+TEST(ScenePath, AFileThatCannotBeReadIsNamedInASentence) {
+  const std::string fault = "names \"a/x.png\", which cannot be read: no such file";
+  EXPECT_EQ(UnreadableFileText("a/x.png", "a/x.png: no such file"), fault);
+  EXPECT_EQ(UnreadableFileText("a/x.png", "no such file"), fault);
+  EXPECT_EQ(UnreadableFileText("x.brdf", "x.brdf:3: a word"),
+            "names a file that cannot be read: x.brdf:3: a word");
+}
+
 }  // namespace
 }  // namespace exphoton
