@@ -32,7 +32,8 @@ void AddBudgetScene(OptionParser& app, RawBudgetOptions* raw) {
       .TypeName("WIDTHxHEIGHT");
   app.Add("--effects", raw->effects, "as in exphoton render").TypeName("LIST");
   app.Add("--set", raw->sets, "as in exphoton render").OnePerUse();
-  app.Add("--footprint-spp", raw->footprint, "as in exphoton render").AtLeastZero();
+  app.Add("--footprint-spp", raw->footprint, "as in exphoton render")
+      .Between(std::int64_t(1), std::int64_t(1) << 30);
   app.Add("--seed", raw->seed, "first seed");
   app.Add("--nthreads,--ncores", raw->threads, "threads; 0: all cores").Between(0, 4096);
   app.Add("--plugin-dir", raw->pluginFolders, "look for plugins in this folder first").OnePerUse();
@@ -73,7 +74,7 @@ void MakeBudgetText(const std::vector<std::string>& arguments) {
   app.Add("--reference-spp", options.referenceSamples,
           "compare the sum with renders against guidedpath with this number of samples a pixel; "
           "without it, with a certificate")
-      .Between(std::int64_t(0), std::int64_t(1) << 24);
+      .Between(std::int64_t(1), std::int64_t(1) << 24);
   app.Parse(arguments);
   options.showsProgress = !raw.isQuiet;
   const RenderCommand command = ParseRenderCommand(RenderWords(raw), RenderMode::Render);

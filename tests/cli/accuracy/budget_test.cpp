@@ -126,6 +126,8 @@ TEST_F(BudgetTest, SaysWhatIsWrong) {
   };
   EXPECT_NE(refused({"--integrator", "path"}, 1).find("no error budget"), std::string::npos);
   refused({"--seeds", "2"}, 1);
+  EXPECT_NE(refused({"--reference-spp", "0"}, 1).find("--reference-spp"), std::string::npos);
+  EXPECT_NE(refused({"--footprint-spp", "0"}, 1).find("--footprint-spp"), std::string::npos);
   refused({"--effects", "nothing=off"}, 1);
   EXPECT_EQ(Run({"budget", "none.pbrt"}).status, 3);
 }
