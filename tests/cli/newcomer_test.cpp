@@ -310,7 +310,7 @@ TEST_F(Newcomer, APlanSaysHowManyRendersAndHowLong) {
   const ProgramResult timed =
       Run({"study", "scene.pbrt", "--plan", "--integrators", "path", "--budgets", "30s", "--seeds",
            "4", "--make-reference", "path", "--reference-time", "10m"});
-  EXPECT_TRUE(Has(timed.out, "4 renders of 8 x 6 pixels (1 settings, 4 seeds each), about 2 min"))
+  EXPECT_TRUE(Has(timed.out, "4 renders of 8 x 6 pixels (1 setting, 4 seeds), about 2 min"))
       << timed.out;
   EXPECT_TRUE(Has(timed.out, "about 12 min in all")) << timed.out;
   EXPECT_EQ(Files(), Names{"scene.pbrt"});

@@ -111,7 +111,8 @@ TEST_F(OutputFiles, TwoOutputsOfARunAreTwoFiles) {
   fs::create_symlink("one.exr", Path("link.exr"));
   for (const char* name : {"one.exr", "./one.exr", "link.exr"}) {
     ExpectRefused({"scene.pbrt", "-o", "one.exr", "--preview", name}, {"one.exr", "--preview"});
-    ExpectRefused({"scene.pbrt", "-o", "one.exr", "--stats-json", name}, {"one.exr", "--stats"});
+    ExpectRefused({"scene.pbrt", "-o", "one.exr", "--stats-json", name},
+                  {"one.exr", "--stats", "this file is also the one for the picture"});
   }
   Write("other.pbrt", SmallScene());
   ExpectRefused({"scene.pbrt", "other.pbrt"}, {"\"scene.pbrt\"", "\"other.pbrt\"", "-o out.exr"});

@@ -178,7 +178,7 @@ std::vector<std::string> BudgetNotes(const MeasuredBudget& budget, const BudgetO
   notes.push_back("biases are those of means over blocks of " + blocks);
   if (budget.isByReference) {
     notes.push_back("measured with other seeds against guidedpath with " +
-                    std::to_string(options.referenceSamples) + " samples a pixel");
+                    Counted(options.referenceSamples, "sample") + " a pixel");
     const study::Measured& inside = budget.measured.insideBlocks;
     if (budget.budget.blockWidth > 1)
       notes.push_back(
@@ -200,7 +200,7 @@ std::vector<std::string> BudgetNotes(const MeasuredBudget& budget, const BudgetO
 std::string BudgetText(const std::string& scene, const MeasuredBudget& budget,
                        const BudgetOptions& options) {
   const std::string settings = Format("%d x %d pixels, ", budget.width, budget.height) +
-                               std::to_string(budget.samples) + " samples a pixel, " +
+                               Counted(budget.samples, "sample") + " a pixel, " +
                                budget.integrator + "\n";
   const bool fits = scene.size() + settings.size() < std::size_t(kColumns);
   std::string text = scene + (fits ? ", " : ",\n") + settings +

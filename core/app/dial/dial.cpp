@@ -152,9 +152,8 @@ std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command,
 void ReportPasses(const RenderCommand& command, Log& log) {
   const DialChoice& dial = *command.dial;
   const double needed = std::max(std::ceil(dial.expectedSamples / double(dial.firstSamples)), 2.);
-  log.Notice(
-      Format("a pass has %lld samples a pixel, and about %.0f passes are likely to be enough",
-             static_cast<long long>(dial.firstSamples), needed));
+  log.Notice(Format("a pass has %s a pixel, and about %.0f passes are likely to be enough",
+                    Counted(dial.firstSamples, "sample").c_str(), needed));
   if (needed > command.maxPasses)
     log.Warning(Format("--max-passes %d is likely to end the picture before its accuracy of %.3g%%",
                        command.maxPasses, 100 * *command.accuracy),

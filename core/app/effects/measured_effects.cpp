@@ -161,10 +161,10 @@ MeasuredEffects MeasureEffects(const RenderCommand& command, const std::string& 
 
 std::string MeasuredText(const MeasuredEffects& measured) {
   std::string text = Format(
-      "measured      with %d x %d pixels and %d samples a pixel; the whole picture takes about "
-      "%.2g "
-      "CPU s\n",
-      measured.width, measured.height, measured.samples, measured.wholeSeconds);
+      "measured      with %d x %d pixels and %s a pixel; the whole picture takes about %.2g CPU "
+      "s\n",
+      measured.width, measured.height, Counted(measured.samples, "sample").c_str(),
+      measured.wholeSeconds);
   for (const MeasuredEffect& effect : measured.effects)
     text += Format(
         "  %-12sadds %.3g \u00b1 %.1g %% of the light, changes the picture by %.2g %%, "

@@ -114,7 +114,7 @@ std::vector<std::string> NotCovered(const RenderSetup& setup, std::int64_t footp
     phrases = limits->notCovered;
   if (setup.scene->Features().Needs(Feature::Filtering))
     phrases.push_back("the blur of textures and bumps, which are filtered for " +
-                      std::to_string(footprintSamples) + " samples a pixel (--footprint-spp)");
+                      Counted(footprintSamples, "sample") + " a pixel (--footprint-spp)");
   return phrases;
 }
 

@@ -111,8 +111,8 @@ void RunFiles::CheckOthers() const {
     const auto [other, isNew] = seen.try_emplace(*file, output);
     if (isNew) continue;
     const OutputFile& first = other->second;
-    Refuse(output, first.what + " goes to this file, too" +
-                       (first.path == output.path ? "" : ", as " + InQuotes(first.path)));
+    Refuse(output, "this file is also the one for " + first.what +
+                       (first.path == output.path ? "" : ", " + InQuotes(first.path)));
   }
 }
 

@@ -224,8 +224,8 @@ std::string StoppingText(const RunRecord& run) {
   else
     text = "two independent halves";
   if (!run.isComplete) text = "stopped by a signal";
-  text += Format(": %lld samples a pixel in %d %s", static_cast<long long>(run.samplesPerPixel),
-                 run.passes, run.passes == 1 ? "pass" : "passes");
+  text += ": " + Counted(run.samplesPerPixel, "sample") +
+          Format(" a pixel in %d %s", run.passes, run.passes == 1 ? "pass" : "passes");
   if (run.lastDiskArea)
     text += Format(", the last one with %.3g %% of the radii", 100 * std::sqrt(*run.lastDiskArea));
   if (!run.noise) return run.accuracy ? text : text + ", which give no estimate of the noise";

@@ -9,6 +9,7 @@
 #include "core/app/report/chart/cost_chart.h"
 #include "core/app/report/gallery.h"
 #include "core/app/report/page_sections.h"
+#include "core/base/format.h"
 
 namespace exphoton::study {
 namespace {
@@ -71,9 +72,10 @@ Html Facts(const Results& results, const Analysis& analysis) {
   long long nonFinite = 0;
   for (const SettingResult& setting : analysis.settings) nonFinite += setting.nonFinite;
   Html facts = ReferenceFacts(results, analysis);
-  facts += Fact(std::to_string(results.runs.size()) + " renders",
-                std::to_string(results.settings.size()) + " settings with " +
-                    std::to_string(results.seeds) + " independent seeds each");
+  facts += Fact(Counted(std::int64_t(results.runs.size()), "render"),
+                Counted(std::int64_t(results.settings.size()), "setting") + " with " +
+                    Counted(results.seeds, "independent seed") +
+                    (results.settings.size() == 1 ? "" : " each"));
   facts += CertificateFact(results);
   for (const LowerBound& bound : results.lowerBounds)
     facts += Fact(

@@ -158,9 +158,11 @@ std::string ForecastText(const StudyOptions& options, const SceneFacts& scene,
   Probes probes(options);
   probes.Run(settings);
   const std::size_t renders = settings.size() * std::size_t(options.seeds);
-  std::string text = Format("%zu renders of %d x %d pixels (%zu settings, %d seeds each%s)",
-                            renders, scene.width, scene.height, settings.size(), options.seeds,
-                            CertificatesText(options, settings).c_str());
+  std::string text = Counted(std::int64_t(renders), "render") +
+                     Format(" of %d x %d pixels (", scene.width, scene.height) +
+                     Counted(std::int64_t(settings.size()), "setting") + ", " +
+                     Counted(options.seeds, "seed") + (settings.size() == 1 ? "" : " each") +
+                     CertificatesText(options, settings) + ')';
   const bool allHaveLimits = std::all_of(settings.begin(), settings.end(),
                                          [](const auto& setting) { return setting.Find("time"); });
   if (probes.IsEmpty() && !allHaveLimits) return text + "\n";
@@ -173,9 +175,9 @@ std::string ForecastText(const StudyOptions& options, const SceneFacts& scene,
     double more = 0;
     for (const study::Setting& bound : bounds) more += seeds * probes.SecondsOf(bound);
     all += more;
-    text += Format("at most %zu more renders for lower bounds of the time",
-                   bounds.size() * std::size_t(seeds)) +
-            (probes.IsEmpty() ? "" : ", about " + About(more)) + "\n";
+    text += "at most " + Counted(std::int64_t(bounds.size()) * seeds, "more render") +
+            " for lower bounds of the time" + (probes.IsEmpty() ? "" : ", about " + About(more)) +
+            "\n";
   }
   if (!options.makeReference.empty()) {
     all += options.referenceSeconds;

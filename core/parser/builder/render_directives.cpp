@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/format.h"
 #include "core/base/log.h"
 #include "core/params/suggestions.h"
 #include "core/parser/builder/graphics_state.h"
@@ -269,8 +270,8 @@ void RenderDirectives::CreateSampler(PluginRegistry& registry, Log& log, RenderS
   setup->sampler = setup->sampler->WithSamplesPerPixel(*count);
   const std::int64_t made = setup->sampler->SamplesPerPixel();
   if (made != *count)
-    log.Notice("sampler \"" + sampler_.name + "\" takes " + std::to_string(made) +
-               " samples a pixel instead of " + std::to_string(*count));
+    log.Notice("sampler \"" + sampler_.name + "\" takes " + Counted(made, "sample") +
+               " a pixel instead of " + std::to_string(*count));
 }
 
 void RenderDirectives::KeepSharedParameters(PluginRegistry& registry, Log& log) {

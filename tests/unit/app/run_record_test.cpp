@@ -200,6 +200,8 @@ TEST_F(RunRecordTest, SaysWhichRuleStoppedIt) {
   EXPECT_EQ(StoppingText(run),
             "stopped by a signal: 12 samples a pixel in 1 pass, which give no "
             "estimate of the noise");
+  run.samplesPerPixel = 1;
+  EXPECT_TRUE(StoppingText(run).starts_with("stopped by a signal: 1 sample a pixel in 1 pass"));
 }
 
 TEST_F(RunRecordTest, ExplainsTheScene) {

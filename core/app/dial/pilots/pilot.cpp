@@ -97,8 +97,9 @@ std::string PilotRenderer::TextOf(const PilotRequest& request, const PilotPictur
   std::string text = (request.isRough ? "rough pilot of " : "pilot of ") + request.integrator;
   if (request.settings.photons != 1)
     text += Format(" with %.3g times the photons", request.settings.photons);
-  text += Format(", %g samples a pixel: noise %.3g \u00b1 %.2g of relMSE", picture.pilot.samples,
-                 picture.pilot.noise, picture.pilot.error);
+  text += Format(", %g %s a pixel: noise %.3g \u00b1 %.2g of relMSE", picture.pilot.samples,
+                 picture.pilot.samples == 1 ? "sample" : "samples", picture.pilot.noise,
+                 picture.pilot.error);
   if (picture.pilot.photonNoise > 0)
     text += Format(", of the photons %.3g", picture.pilot.photonNoise);
   if (picture.sharing.squared > 0)

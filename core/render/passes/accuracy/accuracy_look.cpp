@@ -17,9 +17,9 @@ std::optional<Certificate> LookAtError(const LookedAtPasses& passes, AccuracyRul
   rule->Look({*sum.Noise(), noiseError, passes.fixedNoise, certificate ? &*certificate : nullptr,
               sum.NoiseBetweenGroups(), sum.NoiseFreedom(), passes.ofMaps, passes.photonNoise});
   log.Verbose(
-      Format("after %lld samples a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
+      Format("after %s a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
              "error below %.3g %%",
-             static_cast<long long>(sum.SamplesPerPixel()), *sum.Noise(), noiseError,
+             Counted(sum.SamplesPerPixel(), "sample").c_str(), *sum.Noise(), noiseError,
              certificate ? certificate->LowerBias() : 0, certificate ? certificate->UpperBias() : 0,
              100 * std::sqrt(rule->Upper())));
   return certificate;

@@ -168,10 +168,9 @@ void ErrorWatch::LookWithoutSharing(const NoiseOfPhotons& noise) {
   rule_ = unshared;
   unshared_->Replace(&job.film, picture_.parts->Aovs(), picture_.sum);
   StopSharing();
-  job.log.Notice(
-      Format("gathers shared -> not shared after %lld samples a pixel, because the "
-             "bias of sharing is a large part of the error",
-             static_cast<long long>(picture_.sum->SamplesPerPixel())));
+  job.log.Notice("gathers shared -> not shared after " +
+                 Counted(picture_.sum->SamplesPerPixel(), "sample") +
+                 " a pixel, because the bias of sharing is a large part of the error");
 }
 
 void ErrorWatch::StopSharing() {
