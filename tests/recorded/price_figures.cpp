@@ -72,7 +72,7 @@ void AddQuotes(FigureLines* lines) {
     if (i == 3) quote.notCovered = {"paths with more than 5 bounces", "blur"};
     quotes.push_back(quote);
   }
-  quotes.push_back({"slow", {}, {}, 0, {}, {}, "renders longer than a pilot may"});
+  quotes.push_back({"slow", {}, {}, 0, {}, {}, {}, "renders longer than a pilot may"});
   QuoteScene plain{"room.pbrt", {}}, other{"a room.pbrt", {}};
   for (const Quote& quote : quotes) {
     plain.options[quote.integrator] = {};
