@@ -12,7 +12,8 @@ using namespace exphoton;
 
 namespace {
 
-// The scene has shared gathers, splatted samples and AOVs, so that the part has all sections.
+// The scene has shared gathers, splatted samples and AOVs, so that the part has all sections but
+// those of an accuracy.
 constexpr const char* kScene =
     "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\"\n"
     "Film \"image\" \"integer xresolution\" 6 \"integer yresolution\" 4\n"

@@ -102,7 +102,7 @@ class FileRenderer {
   void WarnOfFewThreads(const ThreadPool& threads) const;
   bool RenderOne(const RenderSetup& setup);
   bool BeginsAgain(const PassesResult& result, const StateKeeper& keeper);
-  bool HasTimeForAnother() const;
+  bool HasTimeForAnother(double earlierSeconds) const;  // seconds of stopped runs
   void RenderPart(const PartJob& part, const Begin& begin);
   RunRecord NewRecord(const RenderSetup& setup, const Statistics& statistics) const;
   void TakeResult(const PassesResult& result, RunRecord* run) const;
@@ -217,9 +217,10 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
 
 // With a time limit, the next attempt must have time for two groups of passes, without which its
 // error would not be known. The photons alone take four times as long.
-bool FileRenderer::HasTimeForAnother() const {
+bool FileRenderer::HasTimeForAnother(double earlierSeconds) const {
   constexpr double kMostSpent = 1 / 3.;  // of the time limit
-  return !command_.timeLimit || ElapsedSince(begin_->wall) < kMostSpent * *command_.timeLimit;
+  return !command_.timeLimit ||
+         ElapsedSince(begin_->wall) + earlierSeconds < kMostSpent * *command_.timeLimit;
 }
 
 // Returns whether the picture begins again: with more photons, because its bias is too large, or
@@ -231,7 +232,7 @@ bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& ke
   else if (dear)
     loader_.GiveUp("needs more photons for its bias, and would cost as much as", *dear,
                    result.looks);
-  else if (result.reason != StopReason::Bias || !HasTimeForAnother() ||
+  else if (result.reason != StopReason::Bias || !HasTimeForAnother(keeper.EarlierSeconds()) ||
            !RaisePhotons(result.looks, &command_, log_))
     return false;
   attempt_ = keeper.ThisAttempt();

@@ -25,6 +25,7 @@ constexpr const char* kKnown[] = {"path", kGuidedPath, "exphotonmap", "photonmap
 constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuidedPath};
 
 constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
+constexpr double kLeastPass = 4;                            // samples of a pass of a limited number
 constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
 constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
 constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
@@ -66,7 +67,7 @@ std::string Change(const char* what, const std::string& from, const std::string&
 std::string Count(double number) { return std::to_string(std::int64_t(number)); }
 
 // Returns what is chosen, with the settings of the scene before the arrows.
-std::string ChoiceText(const PilotRenderer& pilots, const Candidate& chosen) {
+std::string ChoiceText(const PilotRenderer& pilots, const Candidate& chosen, bool stopsSharing) {
   std::string text = Change("integrator", pilots.SceneIntegrator(), chosen.integrator) + ", " +
                      Change("samples a pixel", std::to_string(pilots.SceneSamples()),
                             "about " + Count(chosen.price.samples));
@@ -80,6 +81,7 @@ std::string ChoiceText(const PilotRenderer& pilots, const Candidate& chosen) {
   if (settings.gatherRays > 0)
     text += ", " + Change("gather rays", rays > 0 ? std::to_string(rays) : "default",
                           std::to_string(settings.gatherRays));
+  if (stopsSharing && ReadsPhotonMaps(chosen.integrator)) text += ", gathers not shared";
   return text;
 }
 
@@ -125,7 +127,7 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
   if (!(ratio > kNotableRatio))
     return "--keep costs nothing: no other settings are expected to be cheaper";
   return Format("--keep costs about %.2g times the time of other settings (", ratio) +
-         ChoiceText(*pilots, *best) + ")";
+         ChoiceText(*pilots, *best, false) + ")";
 }
 
 std::optional<double> SecondsLeft(const RenderCommand& command, Clock::time_point begin) {
@@ -143,7 +145,8 @@ std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command,
     size =
         std::min(size, kFirstShare * std::max(*secondsLeft, 0.) / seconds * chosen.price.samples);
   }
-  size = std::max(size, 1.);
+  // Each of a limited number of passes has photons of its own.
+  size = std::max(size, command.maxPasses > 0 ? kLeastPass : 1.);
   return std::max(kLeastGroup, std::int64_t(std::bit_floor(std::uint64_t(size))));
 }
 
@@ -163,6 +166,19 @@ void ReportPasses(const RenderCommand& command, Log& log) {
 void Apply(const DialSettings& settings, RenderCommand* command) {
   for (ParameterOverride& parameter : settings.Overrides())
     command->load.parameters.push_back(std::move(parameter));
+}
+
+// Names the integrators that are compared, and stops the sharing of passes of a limited number:
+// they would share their gathers alone, and the bias would stay however many passes there are.
+// Returns whether it has stopped.
+bool PrepareForPilots(RenderCommand* command) {
+  if (!command->load.integrator && !command->keepsSettings)
+    command->load.comparedIntegrators = {std::begin(kAutomatic), std::end(kAutomatic)};
+  const auto& integrator = command->load.integrator;
+  if (command->maxPasses == 0 || command->keepsSettings) return false;
+  if (integrator && !ReadsPhotonMaps(*integrator)) return false;
+  command->load.parameters.push_back({"SurfaceIntegrator", "sharedgather", "false"});
+  return true;
 }
 
 // Replaces settings, which are the last parameters of the command. Settings of the scene have no
@@ -230,8 +246,7 @@ void CheckDialIntegrator(const std::string& integrator) {
 
 std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string& scene,
                                         FileSource::Streams* streams, Log& log) {
-  if (!turned->load.integrator && !turned->keepsSettings)
-    turned->load.comparedIntegrators = {std::begin(kAutomatic), std::end(kAutomatic)};
+  const bool stopsSharing = PrepareForPilots(turned);
   const RenderCommand command = *turned;
   const Clock::time_point begin = Clock::now();
   const std::string accuracy = Format("%.3g%%", 100 * *command.accuracy);
@@ -250,7 +265,6 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   Candidate chosen = CheapestOf(candidates, accuracy);
   if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
   turned->load.integrator = chosen.integrator;
-  const std::vector<GivenUp>& given = command.givenUp;
   turned->dial =
       DialChoice{.firstSamples = FirstSamples(chosen, command, SecondsLeft(command, begin)),
                  .biasShare = chosen.biasShare,
@@ -258,12 +272,12 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                  .settings = chosen.settings,
                  .omitted = chosen.omitted,
                  .lackingShare = chosen.lackingShare,
-                 .text = ChoiceText(pilots, chosen),
+                 .text = ChoiceText(pilots, chosen, stopsSharing),
                  .expectedSamples = chosen.price.samples,
                  .mayRaisePhotons = !command.keepsSettings && command.maxPasses == 0 &&
                                     MayRaisePhotons(chosen.settings),
-                 .earlierLooks = given.empty() ? 0 : given.back().looks,
-                 .rivalSamples = RivalSamples(candidates, chosen, given)};
+                 .earlierLooks = command.givenUp.empty() ? 0 : command.givenUp.back().looks,
+                 .rivalSamples = RivalSamples(candidates, chosen, command.givenUp)};
   Apply(chosen.settings, turned);
   SetFirstSamples(turned->dial->firstSamples, turned);
   turned->certifies = chosen.correctedShare > 0;
@@ -283,7 +297,8 @@ std::optional<double> TooManySamples(const RenderCommand& command) {
   const DialChoice& dial = *command.dial;
   if (!dial.mayRaisePhotons || command.timeLimit) return std::nullopt;
   const double samples = kMorePhotons * dial.photonSamples + dial.expectedSamples;
-  return samples > kDearer * dial.rivalSamples ? std::optional(samples) : std::nullopt;
+  if (!(samples > kDearer * dial.rivalSamples)) return std::nullopt;
+  return samples - dial.photonSamples;  // which another choice counts apart
 }
 
 bool RaisePhotons(int looks, RenderCommand* command, Log& log) {

@@ -24,8 +24,9 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* command, const std::strin
 // the command has changed.
 bool ContinueChoice(const LaterChoice& stopped, RenderCommand* command, Log& log);
 
-// Returns what the picture with more photons is expected to cost, in samples per pixel, if a rival
-// is expected to cost far less; nullopt: there is no such rival, or the dial may not do so.
+// Returns the samples per pixel that cost as much as the expected ones and the photons that the
+// picture would have in addition, if a rival is expected to cost far less; nullopt: there is no
+// such rival, or the dial may not do so.
 std::optional<double> TooManySamples(const RenderCommand& command);
 
 // Multiplies the photons after a render whose bias is too large for the accuracy, if the dial may

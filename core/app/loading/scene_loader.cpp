@@ -29,7 +29,7 @@ SceneLoader::Setups SceneLoader::Load(const std::string& path, Begin* begin) {
   Setups setups = LoadFile(path, chooses ? pilots_->Known() : nullptr);
   const auto stopped = isFirstChoice ? StoppedChoice(setups) : std::nullopt;
   if (stopped && stopped->givenUp.size() > command_.givenUp.size()) {
-    log_.Notice("the stopped render had begun again, because of its noise");
+    log_.Notice("the stopped render had begun again with another choice");
     setups.clear();
     ForgetChoice(stopped->givenUp);
     Choose(path, begin);

@@ -27,9 +27,9 @@ class SceneLoader {
   // Throws Error. `begin` receives the times.
   Setups Load(const std::string& path, Begin* begin);
 
-  // Gives up the picture of the choice, which needs at least this number of samples per pixel. The
-  // next Load chooses again, and compares the rivals with what is known now. looks: at this picture
-  // and earlier ones.
+  // Gives up the picture of the choice, which needs at least this number of samples per pixel, or
+  // as much time. `reason` is a phrase before this number. The next Load chooses again, and
+  // compares the rivals with what is known now. looks: at this picture and earlier ones.
   void GiveUp(const std::string& reason, double neededSamples, int looks);
 
   // Returns the seed of the photons that the last loaded scene has from a pilot; nullopt: none.

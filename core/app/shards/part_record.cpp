@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 #include "core/app/shards/part_record.h"
 
+#include <cmath>
 #include <limits>
 
 #include "core/app/output/picture.h"
@@ -26,6 +27,8 @@ void TransferOmissions(ByteArchive* archive, std::vector<OmittedEffect>* omitted
   for (OmittedEffect& effect : *omitted) {
     archive->Text(&effect.name);
     archive->Values(&effect.bound, &effect.time);
+    if (!std::isfinite(effect.bound) || !std::isfinite(effect.time))
+      throw ArchiveError("its omissions are impossible");
   }
 }
 

@@ -13,9 +13,10 @@ namespace exphoton {
 namespace {
 
 bool IsPossible(const PicturePasses::Accuracy& accuracy) {
-  return accuracy.error > 0 && accuracy.omitted >= 0 && accuracy.omitted < accuracy.error &&
-         accuracy.biasShare >= 0 && accuracy.biasShare <= 1 && accuracy.correctedShare >= 0 &&
-         std::isfinite(accuracy.error) && std::isfinite(accuracy.correctedShare);
+  const auto isShare = [](double share) { return share >= 0 && share <= 1; };
+  return accuracy.error > 0 && std::isfinite(accuracy.error) && accuracy.omitted >= 0 &&
+         accuracy.omitted < accuracy.error && isShare(accuracy.biasShare) &&
+         isShare(accuracy.correctedShare);
 }
 
 }  // namespace
@@ -26,7 +27,8 @@ void PicturePasses::Transfer(ByteArchive* archive) {
   archive->Values(&accuracy.error, &accuracy.biasShare, &accuracy.omitted,
                   &accuracy.correctedShare);
   const bool isKnown = number >= 0 && number <= int(Kind::Accuracy) && count >= 1;
-  if (!isKnown || (Kind(number) == Kind::Accuracy && !IsPossible(accuracy)))
+  const bool hasAccuracy = number == int(Kind::Accuracy);
+  if (!isKnown || (hasAccuracy ? !IsPossible(accuracy) : accuracy.correctedShare != 0))
     throw ArchiveError("its passes contradict each other");
   kind = Kind(number);
 }

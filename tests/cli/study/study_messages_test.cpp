@@ -63,7 +63,7 @@ TEST_F(StudyMessages, CheckAllSettingsBeforeTheFirstRender) {
     }
     EXPECT_FALSE(Exists("out/results.json"));
   };
-  refused({"--integrators", "path", "--vary", "spp=1,x"}, 1, "--spp: Value x");
+  refused({"--integrators", "path", "--vary", "spp=1,x"}, 1, "--spp: \"x\" is not a whole number");
   refused({"--integrators", "exphotonmap", "--vary", "nused=50,-3"}, 1,
           "\"nused\" of integrator \"exphotonmap\" must be between 2 and 100000, not -3");
 }
