@@ -130,7 +130,7 @@ TEST_F(ResumedAccuracy, SecondChoicesContinue) {
   const Names words{"room.pbrt", "--accuracy", "20%", "--seed", "1"};
   const std::string picture = WholePicture(words);
   ASSERT_TRUE(KillAfterState(words, "1", "another choice is made"));
-  ExpectContinued(words, "the stopped render had begun again, because of its noise", picture);
+  ExpectContinued(words, "the stopped render had begun again with another choice", picture);
 }
 
 TEST_F(ResumedAccuracy, CertificatesContinue) {
