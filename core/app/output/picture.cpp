@@ -168,14 +168,14 @@ void CheckIntegrator(const RenderCommand& command, const RenderSetup& setup) {
 PicturePasses PassesOf(const RenderCommand& command) {
   if (command.asTwoHalves) return {PicturePasses::Kind::TwoHalves, 2, 0};
   if (!command.targetError && !command.accuracy) return {};
-  PicturePasses passes{PicturePasses::Kind::TargetError, command.maxPasses,
-                       command.targetError.value_or(0)};
-  if (!command.accuracy) return passes;
+  if (command.targetError)
+    return {PicturePasses::Kind::TargetError, command.maxPasses, *command.targetError};
   const DialChoice& dial = *command.dial;
-  passes.kind = PicturePasses::Kind::Accuracy;
-  passes.accuracy = {*command.accuracy, dial.biasShare, BoundOf(dial.omitted),
-                     command.certifies ? command.certifiedShare : 0};
-  return passes;
+  return {PicturePasses::Kind::Accuracy,
+          command.maxPasses,
+          0,
+          {*command.accuracy, dial.biasShare, BoundOf(dial.omitted),
+           command.certifies ? command.certifiedShare : 0}};
 }
 
 Image MakeImage(const PictureFilms& films, const PassesResult& result, bool premultiplyAlpha) {

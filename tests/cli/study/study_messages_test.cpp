@@ -68,6 +68,17 @@ TEST_F(StudyMessages, CheckAllSettingsBeforeTheFirstRender) {
           "\"nused\" of integrator \"exphotonmap\" must be between 2 and 100000, not -3");
 }
 
+// Only the render reads the photon maps.
+TEST_F(StudyMessages, ShowTheCommandAndTheMessagesOfARenderThatFails) {
+  Write("maps.expm", "no photons");
+  const ProgramResult result = Study("box.pbrt", {"--integrators", "exphotonmap", "--vary", "spp=1",
+                                                  "--photons", "maps.expm", "--seeds", "1"});
+  EXPECT_EQ(result.status, 3) << result.err;
+  ExpectIn("a render of the study failed (status 3): exphoton render box.pbrt", result.err);
+  ExpectIn("--photons maps.expm", result.err);
+  ExpectIn("exphoton: error: cannot use the photons \"maps.expm\"", result.err);
+}
+
 TEST_F(StudyMessages, NameAFolderOfTasksThatIsNone) {
   const Names settings{"--integrators", "path", "--vary", "spp=1"};
   std::filesystem::create_directory(Path("empty"));
