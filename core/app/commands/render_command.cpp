@@ -4,7 +4,6 @@
 #include "core/app/commands/render_command.h"
 
 #include <chrono>
-#include <cstdio>
 #include <new>
 
 #include "core/app/commands/output_checks.h"
@@ -167,7 +166,9 @@ void FileRenderer::WarnOfFewThreads(const ThreadPool& threads) const {
 
 // Returns false if --accuracy needs other settings.
 bool FileRenderer::RenderOne(const RenderSetup& setup) {
-  const Begin begin = begin_ ? *begin_ : begin_.emplace();
+  if (!begin_) begin_.emplace();
+  begin_->BeginAttempt();
+  const Begin begin = *begin_;
   filmName_ = setup.film.filename;
   log_.Notice("effects: " + EffectNames(setup));
   log_.Verbose("effects:\n" + setup.scene->Features().Describe());
@@ -205,6 +206,7 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = ElapsedSince(start);
+  run.givenUpSeconds = begin.givenUpWall;
   run.certificate = CertificateOf(films, result, NotCovered(setup, FootprintSamples(job, options)));
   TakeResult(result, &run);
   const Picture picture =
@@ -236,6 +238,7 @@ bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& ke
            !RaisePhotons(result.looks, &command_, log_))
     return false;
   attempt_ = keeper.ThisAttempt();
+  begin_->GiveUpAttempt();
   return true;
 }
 
@@ -338,8 +341,9 @@ void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
   WarnOfClamping(picture.report, log_);
   if (!command_.previewFile.empty() && run.isComplete)
     WritePngPicture(command_.previewFile, picture.image, command_.png, log_);
-  char seconds[32];
-  std::snprintf(seconds, sizeof seconds, "%.2f s", run.renderSeconds);
+  std::string seconds = Format("%.2f s", run.renderSeconds);
+  if (run.givenUpSeconds > 0)
+    seconds += Format(", after %.2f s for a picture that was given up", run.givenUpSeconds);
   log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") +
               picture.path + "\" (rendered in " + seconds + ")");
 }
@@ -351,7 +355,8 @@ void FileRenderer::Report(const RunRecord& run) {
   const std::string line = StatisticsJson(run);
   if (command_.statsFile == "-") return PrintOut(line);
   run_.statistics += line;
-  WriteTextFile(command_.statsFile, run_.statistics);
+  WriteOrKeepElsewhere(command_.statsFile,
+                       [this](const std::string& path) { WriteTextFile(path, run_.statistics); });
 }
 
 // Renders one file after the other. Returns the status of the first file that failed.

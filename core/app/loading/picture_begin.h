@@ -23,12 +23,15 @@ struct Begin {
   std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
   double cpu = ProcessCpuSeconds();
   double pilotWall = 0, pilotCpu = 0, loadWall = 0, loadCpu = 0;
+  double givenUpWall = 0, givenUpCpu = 0;  // of attempts after which the picture began again
 
   double Wall() const { return ElapsedSince(wall); }
   double Cpu() const { return ProcessCpuSeconds() - cpu; }
   // The pilots of --accuracy come before loading. Later ones may follow a picture that is given up.
   void BeginPilots() { pilotWall -= Wall(), pilotCpu -= Cpu(); }
   void EndPilots() { pilotWall += Wall(), pilotCpu += Cpu(); }
+  void BeginAttempt() { attemptWall_ = Wall(), attemptCpu_ = Cpu(); }
+  void GiveUpAttempt() { givenUpWall += Wall() - attemptWall_, givenUpCpu += Cpu() - attemptCpu_; }
   // Loading again, for more photons, is no part of it.
   void EndLoading() {
     if (loadWall > 0) return;
@@ -38,6 +41,7 @@ struct Begin {
   // Loading the scene file counts towards its first picture.
   void AddLoadingTimes(const RenderSetup& setup, Statistics* statistics) const {
     if (pilotWall > 0) statistics->AddPhase("pilots", pilotWall, pilotCpu);
+    if (givenUpWall > 0) statistics->AddPhase("given up", givenUpWall, givenUpCpu);
     const double seconds = loadWall - setup.acceleratorSeconds;
     const double cpuSeconds = loadCpu - setup.acceleratorCpuSeconds;
     statistics->AddPhase("parse", std::max(seconds, 0.), std::max(cpuSeconds, 0.));
@@ -45,6 +49,9 @@ struct Begin {
     if (setup.acceleratorSeconds > 0)
       statistics->AddPhase("accelerator", setup.acceleratorSeconds, setup.acceleratorCpuSeconds);
   }
+
+ private:
+  double attemptWall_ = 0, attemptCpu_ = 0;  // at the beginning of the attempt
 };
 
 }  // namespace exphoton::cli

@@ -172,7 +172,7 @@ std::string AccuracyText(const RunRecord& run) {
   text += Format(", which is not the accuracy of %.3g %%: ", 100 * *run.accuracy);
   if (run.stoppedBy == "bias") return text + "the bias is larger; more photons reduce it";
   if (run.stoppedBy == "time-limit") return text + "the time limit came first";
-  return text + "the limit of samples came first";
+  return text + "the limit of samples or passes came first";
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ struct RunRecord {
   std::uint64_t seed = 0;
   int threads = 1;
   double renderSeconds = 0;                // wall time, without loading the scene
+  double givenUpSeconds = 0;               // wall time of attempts before this picture
   double wallSeconds = 0, cpuSeconds = 0;  // from loading the scene to writing the picture
   double peakMemory = 0;                   // bytes
   bool isComplete = true;

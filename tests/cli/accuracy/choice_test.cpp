@@ -97,6 +97,7 @@ TEST_F(ChoiceTest, IsMadeAgainWhereAPictureIsFarNoisierThanItsPilots) {
     ExpectIn("accuracy 20%: integrator exphotonmap -> path", result.err);
     ExpectIn("the picture of path needs at least ", result.err);
     ExpectIn("accuracy 20%: integrator exphotonmap, ", result.err);
+    ExpectIn(" s for a picture that was given up)", result.err);
     EXPECT_EQ(result.err.find("which is not the accuracy"), std::string::npos) << result.err;
     pictures[threads[0] - '1'] = Read("lamp.exr");
   }
@@ -104,6 +105,15 @@ TEST_F(ChoiceTest, IsMadeAgainWhereAPictureIsFarNoisierThanItsPilots) {
   // The pilots of both choices count: two of path, and at least three of photons.
   const nlohmann::json statistics = nlohmann::json::parse(Read("lamp.json"));
   EXPECT_GE(statistics["accuracy"]["pilots"]["renders"].get<int>(), 5);
+  // So does the time of the picture of path.
+  double givenUp = 0, allPhases = 0;
+  for (const auto& phase : statistics["phases"]) {
+    const double seconds = phase["cpuSeconds"].get<double>();
+    allPhases += seconds;
+    if (phase["name"] == "given up") givenUp = seconds;
+  }
+  EXPECT_GT(givenUp, 0);
+  EXPECT_GT(allPhases, .9 * statistics["cpuSeconds"].get<double>());
 }
 
 // Returns a closed room with a tiny lamp in a cup.

@@ -173,7 +173,8 @@ TEST_F(Shards, TooFewPassesForAnAccuracyAreAnnounced) {
   const ProgramResult result = Run(hard);
   EXPECT_EQ(result.status, 0) << result.err;
   ExpectIn("--max-passes 2 is likely to end the picture before its accuracy of 0.01%", result.err);
-  ExpectIn("which is not the accuracy of 0.01 %: the limit of samples came first", result.err);
+  ExpectIn("which is not the accuracy of 0.01 %: the limit of samples or passes came first",
+           result.err);
 }
 
 TEST_F(Shards, APartThatExistsIsSkipped) {
