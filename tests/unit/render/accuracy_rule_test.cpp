@@ -57,8 +57,31 @@ TEST(AccuracyRule, CountsTheBiasAndItsInterval) {
   EXPECT_NEAR(rule.Upper(), .0003 + distance, 1e-9);
   EXPECT_TRUE(rule.IsReached());
   EXPECT_FALSE(rule.IsOutOfReach());
-  EXPECT_NEAR(rule.Growth(), (.0002 + distance) / .0003, 1e-6);
+  const double growth = rule.Growth();
+  const double later = std::hypot(kFirst * .00003 / growth, .00008);
+  EXPECT_NEAR(.0002 / growth + .0001 + later, .0004, 1e-9);
   EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
+}
+
+// More samples bring finer blocks rather than a narrower interval, once the interval can certify
+// what the accuracy wants (.00005). Before, its part without bias falls as 1 / samples, and the
+// other part as the root of that.
+TEST(AccuracyRule, ExpectsIntervalsOfTheBiasToStopShrinking) {
+  for (const double smallest : {.00005, .0001, .0002}) {
+    AccuracyRule rule(.02, .125);
+    Certificate certificate = Bias(.0001, 0, .0001 + .0003);
+    certificate.bias.smallest = smallest;
+    rule.Look({.noise = .0002, .noiseError = 0, .certificate = &certificate});
+    const double growth = rule.Growth();
+    if (smallest == .00005) {
+      EXPECT_TRUE(std::isinf(growth));
+      continue;
+    }
+    const double factor = std::max(1 / growth, .00005 / smallest);
+    const double other = .0003 * .0003 - smallest * smallest;
+    const double later = std::sqrt(smallest * smallest * factor * factor + other * factor);
+    EXPECT_NEAR(.0002 / growth + .0001 + later, .0004, 1e-9);
+  }
 }
 
 // A look at another picture takes its part of the 5 %.

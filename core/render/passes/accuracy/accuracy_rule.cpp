@@ -29,9 +29,30 @@ double NoiseDistance(const ErrorEstimate& estimate, double chance, double z) {
   return estimate.betweenGroups * (degrees / lowest - 1);
 }
 
-// Parts of the error (relMSE) at a look. `falling` is inversely proportional to the samples.
+// The interval of the bias lies this far above its estimate (relMSE). More samples make it narrower
+// until it can certify the smallest bias that is wanted. Then certificates have finer blocks, which
+// keep its width.
+struct BiasDistance {
+  double now = 0;       // at the look
+  double smallest = 0;  // the part that there would be without bias
+  double wanted = 0;    // of this part
+
+  // The other part is the product of the bias and the noise of the corrections, so both parts
+  // follow from the factor by which this noise falls.
+  double After(double growth) const {
+    if (smallest <= wanted) return now;
+    const double factor = std::max(1 / growth, wanted / smallest);
+    const double other = std::max(now * now - smallest * smallest, 0.);
+    return std::sqrt(std::max(smallest * smallest * factor * factor + other * factor, 0.));
+  }
+};
+
+// Parts of the error (relMSE) at a look. `noise` and its distance are inversely proportional to the
+// samples.
 struct ErrorParts {
-  double falling = 0, sharing = 0, fixed = 0;
+  double noise = 0, noiseDistance = 0;
+  double sharing = 0, fixed = 0;
+  BiasDistance bias = {};
 };
 
 // Returns the factor by which the number of samples must grow until the parts fit into the room.
@@ -40,7 +61,8 @@ double GrowthUntil(const ErrorParts& parts, double room) {
   constexpr double kMost = 0x1p40;
   const auto fits = [&](double growth) {
     const double sharing = parts.sharing * std::pow(growth, -kSharingSlope);
-    return parts.falling / growth + sharing + parts.fixed <= room;
+    const double distance = std::hypot(parts.noiseDistance / growth, parts.bias.After(growth));
+    return parts.noise / growth + sharing + parts.fixed + distance <= room;
   };
   if (!fits(kMost)) return std::numeric_limits<double>::infinity();
   double low = -40, high = 40;
@@ -84,7 +106,6 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   const double bias = bias_ = certificate ? certificate->Bias() : 0;
   const double z = Quantile(looks_), ofBias = certificate ? certificate->UpperBias() - bias : 0;
   const double distance = std::hypot(NoiseDistance(estimate, WrongChance(looks_), z), ofBias);
-  const double normal = std::hypot(z * estimate.noiseError, ofBias);
   upper_ = estimate.noise + bias + distance;
   if (omitted_ > 0) upper_ = std::pow(std::sqrt(upper_) + omitted_, 2);
   lowerBias_ = certificate ? certificate->LowerBias() : 0;
@@ -96,9 +117,14 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   const double fixed = isKept ? estimate.fixedNoise : 0;
   const bool isShared = certificate && certificate->sharing;
   const double sharing = isShared ? std::max(certificate->sharing->squared, 0.) : 0;
-  growth_ = GrowthUntil({estimate.noise - fixed + normal, sharing, fixed + bias - sharing}, room_);
+  const BiasDistance biasDistance{ofBias, certificate ? certificate->bias.smallest : 0,
+                                  biasShare_ * room_};
+  growth_ = GrowthUntil({estimate.noise - fixed, z * estimate.noiseError, sharing,
+                         fixed + bias - sharing, biasDistance},
+                        room_);
   const double leastNoise = std::max(estimate.noise - estimate.noiseError - fixed, 0.);
-  leastGrowth_ = IsOutOfReach() ? 1 : GrowthUntil({leastNoise, 0, fixed}, room_ - lowerBias_);
+  leastGrowth_ =
+      IsOutOfReach() ? 1 : GrowthUntil({.noise = leastNoise, .fixed = fixed}, room_ - lowerBias_);
 }
 
 void AccuracyRule::Transfer(ByteArchive* archive) {

@@ -64,11 +64,11 @@ class AccuracyRule {
   }
   // Returns the noise that the bias of the last look leaves room for, as a part of relMSE.
   double RoomForNoise() const { return std::max(room_ - bias_, 0.); }
-  // Returns the factor by which the number of samples must grow, if noise and the width of the
-  // interval fall as 1 / samples, the bias of shared gathers falls by kSharingSlope, and photons
-  // that are shot again lower the fixed noise. The interval is the one of normal noise, because
-  // groups, rather than samples, give the noise degrees of freedom. Returns infinity if the rest of
-  // the bias leaves no room.
+  // Returns the factor by which the number of samples must grow, if the noise falls as 1 / samples,
+  // the bias of shared gathers falls by kSharingSlope, photons that are shot again lower the fixed
+  // noise, and the interval of the bias shrinks as far as certificates need it (BiasDistance). The
+  // interval of the noise is the one of normal noise, because groups, rather than samples, give it
+  // degrees of freedom. Returns infinity if the rest of the bias leaves no room.
   double Growth() const { return growth_; }
   // The same if the noise is one standard error lower than estimated, and the bias as low as its
   // interval allows.
