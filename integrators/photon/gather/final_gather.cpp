@@ -16,19 +16,6 @@ Spectrum SharedReflectance(const Bsdf& bsdf, const LiContext& context) {
   return reflectance.MaxComponent() > kMinReflectance ? reflectance : Spectrum();
 }
 
-// Divides light that leaves a surface by its reflectance. A channel without reflectance takes the
-// quotient of the brightest channel, because a white surface would reflect it.
-Spectrum OffWhite(const Spectrum& light, const Spectrum& reflectance) {
-  int brightest = reflectance.g > reflectance.r ? 1 : 0;
-  if (reflectance.b > reflectance[brightest]) brightest = 2;
-  const Real otherwise = light[brightest] / reflectance[brightest];
-  const Real least = Real(1e-4) * reflectance[brightest];
-  Spectrum white;
-  for (int c = 0; c < Spectrum::kChannels; ++c)
-    white[c] = reflectance[c] > least ? light[c] / reflectance[c] : otherwise;
-  return white;
-}
-
 }  // namespace
 
 FinalGather::FinalGather(const PhotonSettings& settings)
@@ -66,19 +53,32 @@ FinalGather::Rays::Rays(std::size_t most, const Bsdf& bsdf, LiContext& context)
     : directions(context.arena.AllocateArray<Vector3>(most)),
       weights(context.arena.AllocateArray<Spectrum>(most)),
       reflectance(SharedReflectance(bsdf, context)) {
-  if (!reflectance.IsBlack()) white = context.arena.AllocateArray<Spectrum>(most);
+  if (reflectance.IsBlack()) return;
+  white = context.arena.AllocateArray<Spectrum>(most);
+  isDiffuse = !bsdf.Has(LobeSet::Glossy);
+  brightest_ = reflectance.g > reflectance.r ? 1 : 0;
+  if (reflectance.b > reflectance[brightest_]) brightest_ = 2;
+}
+
+Spectrum FinalGather::Rays::OffWhite(const Spectrum& light) const {
+  const Real otherwise = light[brightest_] / reflectance[brightest_];
+  const Real least = Real(1e-4) * reflectance[brightest_];
+  Spectrum result;
+  for (int c = 0; c < Spectrum::kChannels; ++c)
+    result[c] = reflectance[c] > least ? light[c] / reflectance[c] : otherwise;
+  return result;
 }
 
 void FinalGather::Rays::SeparateDiffuse(const ShadingPoint& point, Real scale) {
   Spectrum& weight = weights[count];
-  if (!point.bsdf.Has(LobeSet::Glossy)) {
-    white[count] = OffWhite(weight, reflectance);
+  if (isDiffuse) {
+    white[count] = OffWhite(weight);
     weight = {};
     return;
   }
   const Spectrum diffuse =
       point.bsdf.f(point.Wo(), directions[count], LobeSet::DiffuseReflection) * scale;
-  white[count] = OffWhite(diffuse, reflectance);
+  white[count] = OffWhite(diffuse);
   weight = Clamp(weight - diffuse, 0, std::numeric_limits<Real>::max());
 }
 

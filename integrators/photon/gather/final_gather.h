@@ -84,12 +84,20 @@ class FinalGather {
     // and the diffuse reflectance of the surface.
     Spectrum* white = nullptr;
     Spectrum reflectance;
+    bool isDiffuse = false;  // all light goes to `white`, and `weights` are 0
 
     // Moves the diffuse part of the weight of ray `count` to `white`. `scale` is the factor on the
     // lobe's value f.
     void SeparateDiffuse(const ShadingPoint& point, Real scale);
     // Returns the weights with the diffuse part, whether the gather is shared or not.
     const Spectrum* AllWeights(LiContext& context) const;
+
+   private:
+    // Divides light that leaves the surface by its reflectance. A channel without reflectance takes
+    // the quotient of the brightest channel, because a white surface would reflect it.
+    Spectrum OffWhite(const Spectrum& light) const;
+
+    int brightest_ = 0;  // channel of the reflectance
   };
 
   // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
@@ -121,7 +129,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, LiContext& context,
       observed = context.arena.template AllocateArray<Spectrum>(rays.count);
   for (std::size_t i = 0; i < rays.count; ++i) {
     const Spectrum radiance = incident.Read(segments[i]);
-    gathered += rays.weights[i] * radiance;
+    if (!rays.isDiffuse) gathered += rays.weights[i] * radiance;
     if (rays.white) white += rays.white[i] * radiance;
     if (observed) observed[i] = radiance;
   }
