@@ -188,7 +188,6 @@ std::optional<CertificationLimits> PhotonIntegrator::Certification(const Scene& 
     add("the blur of the direct map where light changes within the search radius");
   if (!settings_.finalGather && needs(Feature::Indirect))
     add("the blur of the indirect map where light changes within the search radius");
-  if (scene.HasMedia()) add("the steps of ray marching through media");
   return limits;
 }
 

@@ -53,7 +53,7 @@ Separation Separate(const std::vector<Image>& pictures, const Reference& referen
 
 // Returns the squared bias of square blocks of pixels, as a part of relMSE. It is the mean of B^2
 // over blocks and colours, weighted by area, with B the mean over a block of the relative errors
-// (x - r) / sqrt(r^2 + 0.01). Bias of both signs inside a block cancels, so the expected value is
+// (x - r) / sqrt(r^2 + 0.01). What varies inside a block cancels, so the expected value is
 // at most the one of bias2. Products of different pictures leave out their noise, and the noise of
 // the reference is taken off. `blockWidth` is in pixels, and the blocks begin in the upper left
 // corner. The value is unknown for fewer than two pictures, and its standard error, which is the

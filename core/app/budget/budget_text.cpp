@@ -182,7 +182,7 @@ std::vector<std::string> BudgetNotes(const MeasuredBudget& budget, const BudgetO
     const study::Measured& inside = budget.measured.insideBlocks;
     if (budget.budget.blockWidth > 1)
       notes.push_back(
-          Format("bias of both signs inside the blocks, which is in no part: %.2g \u00b1 ",
+          Format("bias that varies inside the blocks, which is in no part: %.2g \u00b1 ",
                  inside.value) +
           Format("%.1g", StudentQuantile95(options.seeds - 1) * inside.error));
   } else {

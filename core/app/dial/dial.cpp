@@ -27,8 +27,10 @@ constexpr const char* kAutomatic[] = {"path", "exphotonmap", kGuidedPath};
 constexpr std::int64_t kLeastGroup = 2;                     // samples of a group
 constexpr double kLeastPass = 4;                            // samples of a pass of a limited number
 constexpr std::int64_t kMostFirst = std::int64_t(1) << 40;  // samples of a first group
-constexpr double kRoundUp = 1.25;         // groups are rounded up from above 2^k / 1.25
-constexpr std::int64_t kMostGrowth = 64;  // of the samples that the pilots suggest
+constexpr double kRoundUp = 1.25;   // groups are rounded up from above 2^k / 1.25
+constexpr double kMostGrowth = 64;  // of the samples that the pilots suggest
+// Textures are filtered for this number of first groups.
+constexpr std::int64_t kFootprintGroups = 128;
 constexpr double kMorePhotons = 4, kMostPhotons = 256;
 constexpr double kDearer = 2;          // than a rival, whose price comes from small pilots
 constexpr double kNotableRatio = 1.1;  // of times
@@ -150,6 +152,14 @@ std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command,
   return std::max(kLeastGroup, std::int64_t(std::bit_floor(std::uint64_t(size))));
 }
 
+// Returns the limit of a picture that should take this number of samples. Pilots that ask for a few
+// samples know little about rare bright ones.
+std::int64_t MostSamples(double expected) {
+  constexpr double kFew = 16;
+  const double most = kMostGrowth * std::max(expected, kFew);
+  return std::int64_t(std::min(most, double(StoppingRule::kMaxSamples)));
+}
+
 // States how many passes the accuracy is likely to take (--max-passes). A pass that is rendered in
 // vain costs as much as one that is needed, so the number should not be far above it.
 void ReportPasses(const RenderCommand& command, Log& log) {
@@ -194,7 +204,7 @@ void Replace(const DialSettings& earlier, const DialSettings& settings, RenderCo
 void SetFirstSamples(std::int64_t samples, RenderCommand* command) {
   const int passes = command->maxPasses;
   command->dial->firstSamples = samples;
-  command->load.samplesPerPixel = passes > 0 ? samples : 2 * kMostGrowth * samples;
+  command->load.samplesPerPixel = passes > 0 ? samples : kFootprintGroups * samples;
   if (passes > 0 && command->footprintSamples == 0) command->footprintSamples = samples * passes;
 }
 
@@ -274,6 +284,7 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
                  .lackingShare = chosen.lackingShare,
                  .text = ChoiceText(pilots, chosen, stopsSharing),
                  .expectedSamples = chosen.price.samples,
+                 .mostSamples = MostSamples(chosen.price.samples),
                  .mayRaisePhotons = !command.keepsSettings && command.maxPasses == 0 &&
                                     MayRaisePhotons(chosen.settings),
                  .earlierLooks = command.givenUp.empty() ? 0 : command.givenUp.back().looks,

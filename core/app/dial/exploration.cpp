@@ -91,13 +91,24 @@ double LowestPrice(const std::vector<Candidate>& candidates) {
 }
 
 // Returns whether a candidate without a first price may still be the cheapest.
-bool MayWin(const Candidate& leftOut, const std::vector<Candidate>& others) {
+bool MayWin(const Candidate& leftOut, const PilotRenderer& pilots,
+            const std::vector<Candidate>& others) {
   if (leftOut.leastPrice > 0) return leftOut.leastPrice < LowestPrice(others);
-  return MayGuidingWin(others);
+  return pilots.HasIndirectLight() && MayGuidingWin(others);
 }
 
 Explorer MakeExplorer(PilotRenderer* pilots, const std::string& name, const Wish& wish) {
   return {pilots, name, wish.keepsPhotons ? 0 : GatherRaysFor(name, *pilots), wish};
+}
+
+// Returns why this integrator needs no pilot; nullopt: it needs one. Without indirect light,
+// guidedpath renders what path renders.
+std::optional<std::string> WhyNoGuiding(const std::string& integrator, const PilotRenderer& pilots,
+                                        const std::vector<Explorer>& explorers) {
+  if (integrator != kGuidedPath) return std::nullopt;
+  if (!pilots.HasIndirectLight()) return "no pilot, because there is no indirect light to guide";
+  if (!MayGuidingWin(LikelyResults(explorers))) return "no pilot, because path costs far more";
+  return std::nullopt;
 }
 
 // Returns the explorers of candidates with a first price. The others go to `leftOut`: those whose
@@ -106,11 +117,8 @@ std::vector<Explorer> BeginAll(PilotRenderer* pilots, const std::vector<std::str
                                const Wish& wish, std::vector<Candidate>* leftOut) {
   std::vector<Explorer> explorers;
   for (const std::string& name : names) {
-    if (name == kGuidedPath && !MayGuidingWin(LikelyResults(explorers))) {
-      Candidate guided;
-      guided.integrator = kGuidedPath;
-      guided.reason = "no pilot, because path costs far more";
-      leftOut->push_back(guided);
+    if (const auto reason = WhyNoGuiding(name, *pilots, explorers)) {
+      leftOut->push_back({.integrator = name, .reason = *reason});
       continue;
     }
     double most = kNoPrice;
@@ -189,7 +197,7 @@ std::vector<Candidate> ExploreAll(PilotRenderer* pilots, const std::vector<std::
   Explore(&explorers, kNoPrice);
   for (const Candidate& candidate : leftOut) {
     const std::vector<Candidate> others = SettleCheapest(&explorers);
-    if (!MayWin(candidate, others) && !ShowsMoreLight(candidate, others, kFarMore)) {
+    if (!MayWin(candidate, *pilots, others) && !ShowsMoreLight(candidate, others, kFarMore)) {
       skipped.push_back(candidate);
       continue;
     }

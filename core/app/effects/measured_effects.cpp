@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/app/dial/dial_settings.h"
 #include "core/app/dial/pilots/small_scene.h"
 #include "core/app/output/picture.h"
 #include "core/app/process/signals.h"
@@ -14,6 +15,7 @@
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
 #include "core/imaging/metrics/metrics.h"
+#include "core/render/sharing/sharing_plan.h"
 
 namespace exphoton::cli {
 namespace {
@@ -67,6 +69,10 @@ class Measurement {
     MeasuredEffects measured;
     measured.width = setup->crop.Width(), measured.height = setup->crop.Height();
     measured.samples = int(2 * samples_);
+    // Without motion or a lens, gathers might be shared. Their change would count for the effect.
+    if (ReadsPhotonMaps(setup->integratorName) &&
+        !PlanSharing(*setup->integrator, *setup->scene, *setup->camera).isOn)
+      small_.parameters.push_back({"SurfaceIntegrator", "sharedgather", "false"});
     const Halves whole = RenderHalves(*setup);
     measured.wholeSeconds = whole.wholeSeconds;
     measured.parts = PartsOf(*setup);

@@ -39,9 +39,10 @@ struct DialChoice {
   double photonSamples = 0;       // the same
   DialSettings settings;
   std::vector<OmittedEffect> omitted;
-  double lackingShare = 0;     // of the light that exphotonmap finds, what is missing; 0: unknown
-  std::string text;            // what changed
-  double expectedSamples = 0;  // as in StoppingRule::Accuracy
+  double lackingShare = 0;       // of the light that exphotonmap finds, what is missing; 0: unknown
+  std::string text;              // what changed
+  double expectedSamples = 0;    // as in StoppingRule::Accuracy
+  std::int64_t mostSamples = 0;  // that the picture may take, if its passes are not limited
   // Whether the picture may begin again with more photons.
   bool mayRaisePhotons = false;
   int earlierLooks = 0;                                           // as in StoppingRule::Accuracy

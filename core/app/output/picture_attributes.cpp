@@ -46,9 +46,11 @@ void AddCertificate(const Certificate& certificate,
   const auto add = [attributes](const char* name, double squared) {
     (*attributes)[name] = float(BlockBias::Root(squared));
   };
-  add("certificate/error", certificate.Error());
+  if (!certificate.SaysNothing()) {
+    add("certificate/error", certificate.Error());
+    add("certificate/bias", certificate.Bias());
+  }
   add("certificate/noise", certificate.noise);
-  add("certificate/bias", certificate.Bias());
   add("certificate/biasLower", certificate.LowerBias());
   add("certificate/biasUpper", certificate.UpperBias());
   add("certificate/smallestBias", certificate.bias.smallest);

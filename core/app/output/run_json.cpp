@@ -137,9 +137,11 @@ void AddCertificate(const Certificate& certificate, JsonWriter* json) {
   };
   const BlockBias& block = certificate.bias;
   json->Key("certificate"), json->Open('{');
-  add("error", certificate.Error());
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();  // written as null
+  const bool isKnown = !certificate.SaysNothing();
+  add("error", isKnown ? certificate.Error() : kUnknown);
   add("noise", certificate.noise);
-  add("bias", certificate.Bias());
+  add("bias", isKnown ? certificate.Bias() : kUnknown);
   add("biasLower", certificate.LowerBias());
   add("biasUpper", certificate.UpperBias());
   add("smallestBias", block.smallest);

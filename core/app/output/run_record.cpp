@@ -57,6 +57,8 @@ std::string EdgeRow(const RenderSetup& setup) {
 // Describes a phase of Statistics; "" for phases of plugins, which have descriptive names.
 const char* PhaseMeaning(const std::string& name) {
   const std::pair<const char*, const char*> meanings[] = {
+      {"pilots", "small renders that choose the settings of an accuracy"},
+      {"given up", "attempts before the picture began again"},
       {"parse", "reading the scene: files, plugins, textures, meshes"},
       {"accelerator", "building the acceleration structure"},
       {"shoot", "tracing photons from the lights"},

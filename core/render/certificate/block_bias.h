@@ -3,8 +3,8 @@
 // passes. Corrections are averaged over square blocks of pixels. The product of the means of two
 // groups has the squared bias of the block as its expected value, if the noise of the groups is
 // independent. Groups that continue one sequence of camera samples are so only nearly
-// (docs/decisions/0081-one-sequence-for-an-accuracy.md). Bias of both signs inside a block cancels
-// and is not covered. The derivation of the interval is in docs/decisions/0050-bias-certificate.md.
+// (docs/decisions/0081-one-sequence-for-an-accuracy.md). What varies inside a block is not covered.
+// The derivation of the interval is in docs/decisions/0050-bias-certificate.md.
 #pragma once
 
 #include <array>

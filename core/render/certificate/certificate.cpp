@@ -126,7 +126,7 @@ std::vector<std::string> DetailTexts(const Certificate& certificate) {
   if (certificate.sharing)
     texts.push_back("the bias includes " + Percent(certificate.sharing->squared) +
                     " by shared gathers");
-  std::string notCovered = "not covered: bias of both signs inside a block";
+  std::string notCovered = "not covered: how the bias varies inside a block";
   for (const std::string& text : certificate.notCovered) notCovered += "; " + text;
   texts.push_back(notCovered);
   return texts;

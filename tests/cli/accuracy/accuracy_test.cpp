@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests order an accuracy (--accuracy) from the command line.
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -42,6 +43,35 @@ class AccuracyTest : public ProgramTest {
 int NumberAfter(const std::string& text, const std::string& words) {
   const std::size_t at = text.find(words);
   return at == std::string::npos ? 0 : std::atoi(text.c_str() + at + words.size());
+}
+
+// Pilots of few pixels and samples ask for far too few samples. The limit is 64 times as many, and
+// 1024 at least.
+TEST_F(AccuracyTest, MayTakeFarMoreSamplesThanThePilotsSuggest) {
+  for (const char* seed : {"1", "2", "3", "4"}) {
+    const ProgramResult result =
+        Render("5%", {"--integrator", "path", "--resolution", "4x3", "--seed", seed});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const int suggested = NumberAfter(result.err, "samples a pixel 4 -> about ");
+    const int taken = NumberAfter(result.err, "(at a level of 95 %): ");
+    EXPECT_GT(suggested, 0) << result.err;
+    EXPECT_GT(taken, 256) << result.err;  // the former limit
+    EXPECT_LE(taken, 64 * std::max(suggested, 16)) << result.err;
+    EXPECT_EQ(result.err.find("which is not the accuracy"), std::string::npos) << result.err;
+  }
+}
+
+// Without indirect light, guidedpath would render what path renders.
+TEST_F(AccuracyTest, TriesNoGuidingWhereThereIsNoIndirectLight) {
+  Write("mirrors.pbrt",
+        "Film \"image\" \"integer xresolution\" 24 \"integer yresolution\" 16\n"
+        "Camera \"perspective\"\nPixelFilter \"box\"\nWorldBegin\n"
+        "AttributeBegin AreaLightSource \"area\" \"color L\" [5 5 5]\n"
+        "Material \"matte\" \"color Kd\" [0 0 0] Translate 0 3 4 Shape \"sphere\" AttributeEnd\n"
+        "Material \"mirror\" Translate 0 0 4 Shape \"sphere\"\nWorldEnd\n");
+  const ProgramResult result = Render("10%", {}, "mirrors.pbrt");
+  ASSERT_EQ(result.status, 0) << result.err;
+  ExpectIn("guidedpath: no pilot, because there is no indirect light to guide", result.err);
 }
 
 TEST_F(AccuracyTest, RendersUntilTheErrorIsSmall) {

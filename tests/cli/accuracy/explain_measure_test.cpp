@@ -53,6 +53,21 @@ TEST_F(ExplainMeasureTest, WorksWithPhotonMaps) {
   EXPECT_NEAR(Number(result.out, "together (\\S+) %"), 100, .1);
 }
 
+// Motion switches sharing of gathers off. A render without motion must not share them either.
+TEST_F(ExplainMeasureTest, FindsNoLightInMotionThatNobodySees) {
+  WriteFurnace("exphotonmap");
+  std::string text = Read("furnace.pbrt");
+  text.insert(text.find("WorldEnd"),
+              "AttributeBegin Translate 500 0 0 ActiveTransform EndTime Translate 1 0 0\n"
+              "ActiveTransform All AreaLightSource \"area\" \"color L\" [0 0 0] Shape \"sphere\" "
+              "AttributeEnd\n");
+  Write("furnace.pbrt", text);
+  const ProgramResult result = Run({"explain", "furnace.pbrt", "--measure"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_EQ(Number(result.out, "motion +adds (\\S+) "), 0);
+  EXPECT_EQ(Number(result.out, "motion.*picture by (\\S+) %"), 0);
+}
+
 TEST_F(ExplainMeasureTest, OfABlackSceneFindsNoLight) {
   Write("black.pbrt",
         "Film \"image\" \"integer xresolution\" 8 \"integer yresolution\" 8\n"

@@ -285,5 +285,24 @@ TEST_F(RunRecordTest, HasTimesInTheAttributesUnlessReproducible) {
     unsetenv("USER");
 }
 
+// An interval from 0 to the size of the picture leaves the error unknown, whatever its estimate is.
+TEST_F(RunRecordTest, GivesNoErrorWhereACertificateSaysNothing) {
+  for (const bool isKnown : {true, false}) {
+    Certificate certificate;
+    certificate.noise = .0025;
+    certificate.bias.squared = .0016;
+    certificate.bias.upper = isKnown ? .04 : 4;
+    run.certificate = certificate;
+    const std::string json = StatisticsJson(run);
+    EXPECT_EQ(json.find("\"error\":null") == std::string::npos, isKnown) << json;
+    EXPECT_EQ(json.find("\"bias\":null") == std::string::npos, isKnown) << json;
+    EXPECT_NE(json.find("\"noise\":0.05"), std::string::npos) << json;
+    const auto attributes = PictureAttributes(run, true);
+    EXPECT_EQ(attributes.contains("certificate/error"), isKnown);
+    EXPECT_EQ(attributes.contains("certificate/bias"), isKnown);
+    EXPECT_TRUE(attributes.contains("certificate/biasUpper"));
+  }
+}
+
 }  // namespace
 }  // namespace exphoton::cli

@@ -74,6 +74,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   if (setup_->integrator && setup_->scene)
     sceneSharesGathers_ = PlanSharing(*setup_->integrator, *setup_->scene, *setup_->camera).isOn;
   hasSpecularSurfaces_ = setup_->scene && setup_->scene->Features().Needs(Feature::Specular);
+  hasIndirectLight_ = setup_->scene && setup_->scene->Features().Needs(Feature::Indirect);
   sceneUsedPhotons_ = GivenNumber(*setup_, "nused");
   sceneDirectPhotons_ = GivenNumber(*setup_, "directphotons");
   scenePaths_ = GivenNumber(*setup_, "maxphotonpaths");

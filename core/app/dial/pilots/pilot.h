@@ -131,6 +131,7 @@ class PilotRenderer {
   bool SceneSharesGathers() const { return sceneSharesGathers_; }
   // Whether mirrors or glass may matter with the integrator that was loaded first.
   bool HasSpecularSurfaces() const { return hasSpecularSurfaces_; }
+  bool HasIndirectLight() const { return hasIndirectLight_; }
   bool GivesDirectPhotons() const { return sceneDirectPhotons_ > 0; }  // the scene does
   // Of the picture that is wanted.
   int Width() const { return width_; }
@@ -161,7 +162,7 @@ class PilotRenderer {
   std::string sceneIntegrator_;
   std::int64_t sceneSamples_ = 0;
   int sceneGatherRays_ = 0;
-  bool sceneSharesGathers_ = false, hasSpecularSurfaces_ = false;
+  bool sceneSharesGathers_ = false, hasSpecularSurfaces_ = false, hasIndirectLight_ = false;
   double sceneUsedPhotons_ = 0;    // in a density estimate; 0: the scene does not give them
   double sceneDirectPhotons_ = 0;  // the same, of the direct map
   double scenePaths_ = 0;          // limit of the photon paths; 0: the scene does not give it
