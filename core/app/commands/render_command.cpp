@@ -99,6 +99,7 @@ class FileRenderer {
   RenderJob MakeJob(const RenderSetup& setup, PictureFilms* films, ThreadPool& threads,
                     ProgressReporter& progress, Statistics& statistics);
   void WarnOfFewThreads(const ThreadPool& threads) const;
+  Begin BeginAttempt();
   bool RenderOne(const RenderSetup& setup);
   bool BeginsAgain(const PassesResult& result, const StateKeeper& keeper);
   bool HasTimeForAnother(double earlierSeconds) const;  // seconds of stopped runs
@@ -164,11 +165,16 @@ void FileRenderer::WarnOfFewThreads(const ThreadPool& threads) const {
                  std::to_string(command_.threadCount) + " threads could be started");
 }
 
-// Returns false if --accuracy needs other settings.
-bool FileRenderer::RenderOne(const RenderSetup& setup) {
+// Begins the picture, or another attempt at it.
+Begin FileRenderer::BeginAttempt() {
   if (!begin_) begin_.emplace();
   begin_->BeginAttempt();
-  const Begin begin = *begin_;
+  return *begin_;
+}
+
+// Returns false if --accuracy needs other settings.
+bool FileRenderer::RenderOne(const RenderSetup& setup) {
+  const Begin begin = BeginAttempt();
   filmName_ = setup.film.filename;
   log_.Notice("effects: " + EffectNames(setup));
   log_.Verbose("effects:\n" + setup.scene->Features().Describe());
@@ -206,7 +212,6 @@ bool FileRenderer::RenderOne(const RenderSetup& setup) {
   RunRecord run = NewRecord(setup, statistics);
   run.threads = threads.Count();
   run.renderSeconds = ElapsedSince(start);
-  run.givenUpSeconds = begin.givenUpWall;
   run.certificate = CertificateOf(films, result, NotCovered(setup, FootprintSamples(job, options)));
   TakeResult(result, &run);
   const Picture picture =
@@ -245,6 +250,7 @@ bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& ke
 // Returns a record of the command's settings.
 RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& statistics) const {
   RunRecord run(setup, statistics);
+  run.givenUpSeconds = begin_->givenUpWall;
   run.commandLine = command_.commandLine;
   run.seed = command_.seed;
   run.footprintSamples = command_.footprintSamples;
