@@ -17,7 +17,8 @@ struct Settings {
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       Param("maxdepth", &Settings::maxDepth,
-            "bounces after the first surface; 0: emission and direct light only")
+            "bounces after the first surface; 0: emission and direct light only. The ray after the "
+            "last bounce still collects the light of media")
           .Range(0, 10000)
           .WhenNamed(100)};
   return table;
