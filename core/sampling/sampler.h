@@ -92,6 +92,8 @@ class Sampler {
   virtual bool IsProgressive() const { return false; }
   // Returns a sampler like this one with another number of samples per pixel (--spp).
   virtual std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const = 0;
+  // Returns the samples per pixel of WithSamplesPerPixel(count), for count >= 1.
+  virtual std::int64_t RoundSamplesPerPixel(std::int64_t count) const { return count; }
 
   // Begins a camera sample. The sampler must outlive every read of its arrays.
   void Generate(const SampleKey& key, CameraSamples* samples) const;

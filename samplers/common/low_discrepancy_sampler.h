@@ -111,8 +111,10 @@ class LowDiscrepancySampler final : public Sampler {
   }
   bool IsProgressive() const override { return true; }
   std::unique_ptr<Sampler> WithSamplesPerPixel(std::int64_t count) const override {
-    return std::make_unique<LowDiscrepancySampler>(
-        std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(count, 1)))));
+    return std::make_unique<LowDiscrepancySampler>(RoundSamplesPerPixel(count));
+  }
+  std::int64_t RoundSamplesPerPixel(std::int64_t count) const override {
+    return std::int64_t(std::bit_ceil(std::uint64_t(std::max<std::int64_t>(count, 1))));
   }
 
   std::uint64_t FillCamera(const SampleKey& key, CameraSamples* samples) const override {

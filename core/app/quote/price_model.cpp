@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/render/passes/photons/photon_sets.h"
 #include "core/render/sharing/sharing_estimate.h"
+#include "core/sampling/sampler.h"
 
 namespace exphoton::cli {
 namespace {
@@ -62,6 +64,8 @@ std::optional<Price> PriceWith(double k, const PriceModel& model, const Order& o
   }
   if (!samples) return std::nullopt;
   price.samples = std::clamp(std::ceil(order.groups * *samples), double(order.groups), kCountable);
+  if (order.sampler)
+    price.samples = double(order.sampler->RoundSamplesPerPixel(std::int64_t(price.samples)));
   price.photons = k;
   const int paid = k == model.owned ? price.sets - 1 : price.sets;
   price.seconds = model.fixed + paid * model.MapsFor(k) + price.samples * model.sample;

@@ -14,6 +14,10 @@
 #include <optional>
 #include <vector>
 
+namespace exphoton {
+class Sampler;
+}
+
 namespace exphoton::cli {
 
 // Pilot is one render in two halves with the same photons.
@@ -85,6 +89,8 @@ struct Order {
   // Whether the render stops to share gathers where their bias leaves little for the noise
   // (docs/decisions/0093-stop-sharing-for-an-accuracy.md).
   bool mayStopSharing = false;
+  // Rounds the samples of a render to a number that its sampler takes. Null: it takes any number.
+  const Sampler* sampler = nullptr;
 };
 // Returns nullopt if no number of photons up to 64 times the scene's is enough.
 std::optional<Price> PriceOf(const PriceModel& model, const Order& order);

@@ -106,7 +106,7 @@ QuoteScene SceneOf(const QuoteOptions& options) {
   study.sets = options.sets;
   for (const std::string& name : options.integrators) study.plan.bases.push_back({name, name, {}});
   auto foreign = FindForeignSets(study, PlanSettings(study));
-  QuoteScene scene{options.scene, {}};
+  QuoteScene scene{.path = options.scene};
   for (const std::string& name : options.integrators)
     scene.options[name] = SceneOptionsOf(options, foreign[name]);
   return scene;
@@ -126,7 +126,8 @@ void MakeQuote(const std::vector<std::string>& arguments) {
   FileSource::Streams streams;
   Log log(options.isVerbose ? Log::Level::Verbose : Log::Level::Normal);
   PilotRenderer renderer(command, options.scene, {"quote", &streams, &log, false, true});
-  const QuoteScene scene = SceneOf(options);
+  QuoteScene scene = SceneOf(options);
+  scene.sampler = &renderer.SceneSampler();
   const double cpuSeconds = options.seconds * ThreadPool(options.threads).Count();
   std::vector<Quote> quotes;
   for (const std::string& name : options.integrators) {

@@ -29,12 +29,12 @@ std::string Percent(double share) {
 
 PilotMean MeanOf(const Quote& quote) { return {quote.integrator, quote.light}; }
 
-Offer MakeOffer(const Quote& quote, std::span<const PilotMean> means, double accuracy) {
+Offer MakeOffer(const Quote& quote, std::span<const PilotMean> means, const Order& order) {
   Offer offer{&quote, {}, quote.failure};
   if (!offer.reason.empty()) return offer;
   offer.reason = MissingLight(MeanOf(quote), means);
   if (!offer.reason.empty()) return offer;
-  offer.price = PriceOf(quote.model, {accuracy});
+  offer.price = PriceOf(quote.model, order);
   if (!offer.price)
     offer.reason = "needs more than 64 times the photons (bias " + Percent(quote.model.bias) + ")";
   return offer;
@@ -82,7 +82,8 @@ std::string QuoteText(const QuoteScene& scene, const std::vector<Quote>& quotes,
   std::string text;
   for (const double accuracy : accuracies) {
     std::vector<Offer> offers;
-    for (const Quote& quote : quotes) offers.push_back(MakeOffer(quote, means, accuracy));
+    const Order order{.error = accuracy, .sampler = scene.sampler};
+    for (const Quote& quote : quotes) offers.push_back(MakeOffer(quote, means, order));
     std::ranges::stable_sort(offers, {}, [](const Offer& offer) {
       return offer.price ? offer.price->seconds : std::numeric_limits<double>::infinity();
     });

@@ -15,6 +15,7 @@ struct QuoteScene {
   std::string path;
   // Of the renders of each integrator, such as --set and --resolution.
   std::map<std::string, std::vector<std::string>> options;
+  const Sampler* sampler = nullptr;  // as in Order
 };
 
 // accuracies: relative, .05 for 5 %.

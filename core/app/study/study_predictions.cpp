@@ -31,6 +31,7 @@ study::Prediction PredictionFrom(const Quote& quote, const std::vector<PilotMean
   for (int i = 0; i < kPoints; ++i) {
     const double t = double(i) / (kPoints - 1);
     const double error = kLargestError * std::pow(kSmallestError / kLargestError, t);
+    // The line between measured numbers of samples needs prices of any number.
     if (const auto price = PriceOf(quote.model, {error}))
       prediction.points.push_back({error * error, price->seconds, price->least, price->most});
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests quote a scene from the command line, and render what was quoted.
+#include <bit>
 #include <iterator>
 #include <regex>
 #include <sstream>
@@ -29,8 +30,10 @@ TEST_F(QuoteTest, PrintsCommandsThatRenderThePicture) {
   std::istringstream words(found[1]);
   Names arguments{std::istream_iterator<std::string>(words), {}};
   arguments.insert(arguments.end(), {"-o", "room.exr"});
-  EXPECT_EQ(Run(arguments).status, 0);
+  const ProgramResult render = Run(arguments);
+  EXPECT_EQ(render.status, 0);
   EXPECT_TRUE(Exists("room.exr"));
+  ExpectNotIn("instead of", render.err);
 }
 
 TEST_F(QuoteTest, NeedsMoreTimeForLessError) {
@@ -43,6 +46,18 @@ TEST_F(QuoteTest, NeedsMoreTimeForLessError) {
     samples.push_back(std::stoi((*i)[1]));
   ASSERT_EQ(samples.size(), 2u) << quote.out;
   EXPECT_GT(samples[1], 4 * samples[0]);
+}
+
+// The sampler of the scene takes powers of two.
+TEST_F(QuoteTest, PrintsTheSamplesThatTheSamplerTakes) {
+  const ProgramResult quote = Run({"quote", "room.pbrt", "--accuracies", "13,11,9,7,5,3%",
+                                   "--pilot-time", "1s", "--integrators", "path", "--quiet"});
+  ASSERT_EQ(quote.status, 0) << quote.err;
+  const std::regex spp("--spp ([0-9]+)");
+  int count = 0;
+  for (std::sregex_iterator i(quote.out.begin(), quote.out.end(), spp), end; i != end; ++i, ++count)
+    EXPECT_TRUE(std::has_single_bit(std::stoul((*i)[1]))) << quote.out;
+  EXPECT_EQ(count, 6);
 }
 
 // Only the first pilot shoots photons.

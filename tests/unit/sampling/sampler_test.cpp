@@ -54,6 +54,17 @@ TEST(Sampler, ArraysDoNotDependOnTheOrderInWhichTheyAreRead) {
   }
 }
 
+TEST(Sampler, KnowsHowManySamplesAnotherCountBecomes) {
+  TestPlugins plugins;
+  for (const char* text : kSamplers) {
+    const auto sampler = plugins.MakeSampler(text);
+    for (const std::int64_t count : {1, 2, 3, 16, 134, 1000})
+      EXPECT_EQ(sampler->RoundSamplesPerPixel(count),
+                sampler->WithSamplesPerPixel(count)->SamplesPerPixel())
+          << text << ' ' << count;
+  }
+}
+
 class CountingSampler final : public Sampler {
  public:
   std::int64_t SamplesPerPixel() const override { return 1; }

@@ -69,7 +69,7 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   small_ = scene_.Options(command, &setup_);
   loadSeconds_ = ProcessCpuSeconds() - begin;
   sceneIntegrator_ = setup_->integratorName;
-  sceneSamples_ = setup_->sampler->SamplesPerPixel();
+  sceneSampler_ = setup_->sampler->WithSamplesPerPixel(setup_->sampler->SamplesPerPixel());
   sceneGatherRays_ = int(GivenNumber(*setup_, "finalgathersamples"));
   if (setup_->integrator && setup_->scene)
     sceneSharesGathers_ = PlanSharing(*setup_->integrator, *setup_->scene, *setup_->camera).isOn;

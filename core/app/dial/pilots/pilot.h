@@ -125,7 +125,8 @@ class PilotRenderer {
   std::optional<std::uint64_t> Give(const DialChoice& choice, RenderSetup* setup);
 
   const std::string& SceneIntegrator() const { return sceneIntegrator_; }
-  std::int64_t SceneSamples() const { return sceneSamples_; }
+  const Sampler& SceneSampler() const { return *sceneSampler_; }
+  std::int64_t SceneSamples() const { return sceneSampler_->SamplesPerPixel(); }
   int SceneGatherRays() const { return sceneGatherRays_; }  // 0: the scene does not give them
   // Whether the scene's own integrator shares gathers.
   bool SceneSharesGathers() const { return sceneSharesGathers_; }
@@ -160,7 +161,7 @@ class PilotRenderer {
   SmallScene scene_;
   Log& verbose_;
   std::string sceneIntegrator_;
-  std::int64_t sceneSamples_ = 0;
+  std::unique_ptr<const Sampler> sceneSampler_;
   int sceneGatherRays_ = 0;
   bool sceneSharesGathers_ = false, hasSpecularSurfaces_ = false, hasIndirectLight_ = false;
   double sceneUsedPhotons_ = 0;    // in a density estimate; 0: the scene does not give them

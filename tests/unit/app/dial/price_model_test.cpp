@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/support/test_plugin.h"
+
 namespace exphoton::cli {
 namespace {
 
@@ -73,6 +75,32 @@ TEST(PriceModel, TakesFewerPhotonsWhereTheBiasAllowsIt) {
   EXPECT_EQ(price->photons, .125);  // the bias is 8 %, and 16 % with half of these
   EXPECT_EQ(price->samples, 3);     // .01 / (.01 - .0064)
   EXPECT_EQ(PriceOf(model, {.012})->photons, 1);
+}
+
+// 134 samples would be enough. A sampler that takes powers of two renders 256.
+TEST(PriceModel, HasThePriceOfTheSamplesThatTheSamplerTakes) {
+  PriceModel model;
+  model.camera = 1.333, model.sample = 1, model.fixed = .5;
+  EXPECT_EQ(PriceOf(model, {.1})->samples, 134);
+  TestPlugins plugins;
+  const auto rounding = plugins.MakeSampler(R"("lowdiscrepancy")");
+  const auto price = PriceOf(model, {.error = .1, .sampler = rounding.get()});
+  EXPECT_EQ(price->samples, 256);
+  EXPECT_EQ(price->seconds, 256.5);
+  EXPECT_LE(price->least, price->seconds);
+  EXPECT_GE(price->most, price->seconds);
+  const auto exact = plugins.MakeSampler(R"("halton")");
+  EXPECT_EQ(PriceOf(model, {.error = .1, .sampler = exact.get()})->samples, 134);
+}
+
+// Twice the photons need 256 samples instead of 512, which pays only if samples are rounded.
+TEST(PriceModel, ChoosesPhotonsForTheSamplesThatTheSamplerTakes) {
+  PriceModel model;
+  model.camera = 2, model.bias = .07, model.sample = 1, model.maps = 200, model.hasPhotons = true;
+  EXPECT_EQ(PriceOf(model, {.1})->photons, 1);
+  TestPlugins plugins;
+  const auto rounding = plugins.MakeSampler(R"("lowdiscrepancy")");
+  EXPECT_EQ(PriceOf(model, {.error = .1, .sampler = rounding.get()})->photons, 2);
 }
 
 // A quarter of the photons leaves some maps as they are.
