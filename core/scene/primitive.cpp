@@ -63,11 +63,23 @@ void PrimitiveSet::Finish() {
   }
   bounds_ = Bounds3();
   for (std::uint32_t id = 0; id < Count(); ++id) bounds_.Extend(Bounds(id));
+  FindTraitsOfMaterials();
+}
+
+void PrimitiveSet::FindTraitsOfMaterials() {
   lobes_ = LobeSet::None;
-  for (const PrimitiveAttributes& mesh : meshAttributes_) lobes_ = lobes_ | LobesOf(mesh);
-  for (const PrimitiveAttributes& shape : shapeAttributes_) lobes_ = lobes_ | LobesOf(shape);
-  for (const Instance& instance : instances_)
-    lobes_ = lobes_ | instance.object->Set().PossibleLobes();
+  needsDifferentials_ = false;
+  const auto add = [&](LobeSet lobes, bool needsDifferentials) {
+    lobes_ = lobes_ | lobes;
+    needsDifferentials_ = needsDifferentials_ || needsDifferentials;
+  };
+  for (const auto* list : {&meshAttributes_, &shapeAttributes_})
+    for (const PrimitiveAttributes& attributes : *list)
+      add(LobesOf(attributes), attributes.material && attributes.material->NeedsDifferentials());
+  for (const Instance& instance : instances_) {
+    const PrimitiveSet& object = instance.object->Set();
+    add(object.PossibleLobes(), object.NeedsDifferentials());
+  }
 }
 
 LobeSet PrimitiveSet::PossibleLobes(std::uint32_t id) const {

@@ -70,6 +70,8 @@ class PrimitiveSet {
   // Finish. The lobes of an instance are those of its whole object.
   LobeSet PossibleLobes(std::uint32_t id) const;
   LobeSet PossibleLobes() const { return lobes_; }
+  // Returns whether any material of the set needs ray differentials, after Finish.
+  bool NeedsDifferentials() const { return needsDifferentials_; }
 
   // The vertices of a triangle, for accelerators that store triangles in their own layout.
   const std::array<Point3, 3>& TriangleVertices(std::uint32_t id) const { return vertices_[id]; }
@@ -109,6 +111,7 @@ class PrimitiveSet {
     return instances_[hit.instance - triangles_.size() - shapes_.size()];
   }
   Bounds3 InstanceBounds(const Instance& instance) const;
+  void FindTraitsOfMaterials();
   bool EmitsLight() const;  // whether any triangle or shape does
   Real OrderedDistance(const Ray& ray, const Hit& hit) const;
   Ray InstanceRay(std::uint32_t instance, const Ray& ray, Real tMax) const;
@@ -130,6 +133,7 @@ class PrimitiveSet {
   std::vector<Bounds3> instanceBounds_;
   Bounds3 bounds_;
   LobeSet lobes_ = LobeSet::None;
+  bool needsDifferentials_ = false;
 };
 
 }  // namespace exphoton

@@ -35,17 +35,16 @@ constexpr Interval kAlways{-kInfinity, kInfinity};
 
 // The properties of a scene that the rules depend on.
 struct SceneTraits {
-  LobeSet lobes = LobeSet::None;  // union over all surfaces
-  bool needsDifferentials = false;
+  LobeSet lobes;  // union over all surfaces
+  bool needsDifferentials;
   int lights, shiningLights;
   bool mediaEmit = false;  // true if any medium emits or may emit
 
   explicit SceneTraits(const Scene& scene)
-      : lights(int(scene.Lights().size())), shiningLights(scene.NonBlackLightCount()) {
-    for (const auto& material : scene.Materials()) {
-      lobes = lobes | material->PossibleLobes();
-      needsDifferentials = needsDifferentials || material->NeedsDifferentials();
-    }
+      : lobes(scene.Primitives().PossibleLobes()),
+        needsDifferentials(scene.Primitives().NeedsDifferentials()),
+        lights(int(scene.Lights().size())),
+        shiningLights(scene.NonBlackLightCount()) {
     for (const auto& medium : scene.Media()) mediaEmit = mediaEmit || medium->Emits();
   }
   bool Has(LobeSet mask) const { return Intersects(lobes, mask); }

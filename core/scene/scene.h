@@ -34,7 +34,8 @@ struct SceneParts {
   std::vector<std::unique_ptr<ObjectGeometry>> objects;
   std::vector<std::unique_ptr<Light>> lights;
   std::vector<LightOrigin> lightOrigins;                   // in the order of lights; may be shorter
-  std::vector<std::shared_ptr<const Material>> materials;  // all materials of the primitives
+  std::vector<std::shared_ptr<const Material>> materials;  // in the order of the shapes, also
+                                                           // of objects without an instance
   std::vector<std::shared_ptr<const EmitterSurface>> emitters;  // referenced by area lights
   std::vector<std::unique_ptr<Medium>> media;
 };

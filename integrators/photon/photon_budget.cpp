@@ -15,10 +15,7 @@ namespace exphoton {
 namespace {
 
 bool HasReceiver(const Scene& scene) {
-  const auto& materials = scene.Materials();
-  return std::any_of(materials.begin(), materials.end(), [](const auto& material) {
-    return Intersects(material->PossibleLobes(), LobeSet::NonSpecular);
-  });
+  return Intersects(scene.Primitives().PossibleLobes(), LobeSet::NonSpecular);
 }
 
 std::string GatherText(const PhotonSettings& settings, const Scene& scene,

@@ -220,7 +220,7 @@ class WorldBuilder::NamedParts final : public MaterialLookup {
 const Material* WorldBuilder::MaterialFor(MaterialSpec& spec, const ParamSet& shape,
                                           const GraphicsState& state) {
   const std::shared_ptr<const Material> material = MakeMaterial(spec, shape, state);
-  // The scene lists the materials of its shapes only, because their lobes decide what it needs.
+  // The scene owns the materials of its shapes. AOVs number them in the order of the file.
   if (spec.listed != material.get()) {
     parts_.materials.push_back(material);
     spec.listed = material.get();

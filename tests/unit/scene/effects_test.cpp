@@ -108,6 +108,39 @@ TEST(RequiredFeatures, FiltersOnlyFilteredTextures) {
                    .Needs(Feature::Filtering));
 }
 
+// The scene has a matte ball and an object that no instance places in it.
+TEST(RequiredFeatures, DoesNotCountObjectsWithoutAnInstance) {
+  const std::string place = "ObjectInstance \"o\"\n", ball = kPlainLamp + kBall;
+  const auto object = [](const std::string& shapes) {
+    return "ObjectBegin \"o\"\n" + shapes + "ObjectEnd\n";
+  };
+  const auto expect = [&](const std::string& shapes, Feature feature) {
+    EXPECT_FALSE(PlanOf(ball + object(shapes)).Needs(feature)) << shapes;
+    EXPECT_TRUE(PlanOf(ball + object(shapes) + place).Needs(feature)) << shapes;
+  };
+  const std::string glass = MaterialLine(R"("glass")") + kBall;
+  expect(glass, Feature::Caustics);
+  expect(glass, Feature::Specular);
+  expect("ActiveTransform EndTime Translate 0 0 1 ActiveTransform All\n" + glass,
+         Feature::Specular);
+  expect(MaterialLine(R"("translucent")") + kBall, Feature::Transmission);
+  expect(MaterialLine(R"("plastic")") + kBall, Feature::Glossy);
+  expect("Texture \"c\" \"color\" \"checkerboard\"\n" +
+             MaterialLine(R"("matte" "texture Kd" "c")") + kBall,
+         Feature::Filtering);
+}
+
+TEST(RequiredFeatures, DoesNotCountMeshesWithoutVisibleTriangles) {
+  const auto mesh = [](const std::string& corner, const std::string& alpha) {
+    return kPlainLamp + kBall + MaterialLine(R"("mirror")") +
+           "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point P\" [0 0 0 0 1 0 " + corner +
+           "] \"float alpha\" " + alpha + "\n";
+  };
+  EXPECT_TRUE(PlanOf(mesh("1 0 0", "1")).Needs(Feature::Specular));
+  EXPECT_FALSE(PlanOf(mesh("1 0 0", "0")).Needs(Feature::Specular));
+  EXPECT_FALSE(PlanOf(mesh("0 2 0", "1")).Needs(Feature::Specular));
+}
+
 TEST(RequiredFeatures, HasLensSamplesOnlyWithALens) {
   EXPECT_TRUE(
       PlanOf(kPlainLamp + kBall, R"("perspective" "float lensradius" .1)").Needs(Feature::Lens));
