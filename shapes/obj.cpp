@@ -32,8 +32,7 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
       context.log.Notice("the materials of \"" + settings.fileName +
                              "\" are not used: the material of the scene counts",
                          context.where, "\"string group\" takes one group of the file");
-    SetAlpha(settings.alpha, obj.mesh.get());
-    return FinishMesh(std::move(obj.mesh), context, "filename");
+    return FinishMesh(std::move(obj.mesh), context, "filename", settings.alpha);
   } catch (const ObjError& error) {
     throw ParamError{"filename", "cannot be used (" + settings.fileName + "): " + error.what(), ""};
   }

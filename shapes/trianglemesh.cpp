@@ -73,8 +73,7 @@ std::unique_ptr<ShapeGeometry> Create(const Settings& settings, const ShapeConte
         context.where);
     mesh->uv.clear();
   }
-  SetAlpha(settings.alpha, mesh.get());
-  return FinishMesh(std::move(mesh), context, "P");
+  return FinishMesh(std::move(mesh), context, "P", settings.alpha);
 }
 
 }  // namespace

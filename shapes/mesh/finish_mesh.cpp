@@ -45,15 +45,18 @@ std::size_t CountUselessTangents(const TriangleMesh& mesh) {
   return count;
 }
 
-}  // namespace
-
-void SetAlpha(const std::shared_ptr<const Texture<Real>>& alpha, TriangleMesh* mesh) {
+void SetAlpha(const std::shared_ptr<const Texture<Real>>& alpha, const ShapeContext& context,
+              TriangleMesh* mesh) {
   const std::optional<Real> constant = alpha->ConstantValue();
-  if (!constant)
+  if (!constant) {
     mesh->alpha = alpha;
-  else if (*constant == 0)
+  } else if (*constant == 0 && mesh->TriangleCount() > 0) {
+    context.log.Warning("the mesh is invisible, because its alpha is 0", context.where);
     mesh->indices.clear();
+  }
 }
+
+}  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> CheckedTriangles(const std::vector<int>& indices,
                                                            std::size_t vertexCount,
@@ -92,7 +95,8 @@ void CheckMemory(double bytes, const std::string& subject, const std::string& hi
 
 std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,
                                           const ShapeContext& context,
-                                          const std::string& positionParam) {
+                                          const std::string& positionParam,
+                                          const std::shared_ptr<const Texture<Real>>& alpha) {
   MoveToWorld(context, positionParam, mesh.get());
   const std::size_t total = mesh->TriangleCount(), dropped = mesh->DropDegenerate();
   if (total == 0) {
@@ -102,6 +106,7 @@ std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,
                             " triangles have no area and are left out",
                         context.where);
   }
+  if (alpha) SetAlpha(alpha, context, mesh.get());
   const std::size_t normals = mesh->n.empty() ? 0 : CountUselessNormals(*mesh);
   const std::size_t tangents = CountUselessTangents(*mesh);
   if (normals + tangents > 0) {

@@ -12,14 +12,12 @@
 namespace exphoton {
 
 // `mesh` is in object space and has finite positions. Throws ParamError about `positionParam` if
-// the transformation makes a position that is not finite.
+// the transformation makes a position that is not finite. The mesh has holes where `alpha` is 0;
+// null: it has none. A constant alpha is dropped: the mesh is whole, or it has no triangles.
 std::unique_ptr<ShapeGeometry> FinishMesh(std::unique_ptr<TriangleMesh> mesh,
                                           const ShapeContext& context,
-                                          const std::string& positionParam);
-
-// Cuts holes where `alpha` is 0. A constant alpha is dropped: the mesh is whole, or it has no
-// triangles.
-void SetAlpha(const std::shared_ptr<const Texture<Real>>& alpha, TriangleMesh* mesh);
+                                          const std::string& positionParam,
+                                          const std::shared_ptr<const Texture<Real>>& alpha = {});
 
 // Returns the triangles. Throws ParamError{param} unless indices come in threes and each names one
 // of `vertexCount` vertices.

@@ -303,6 +303,18 @@ TEST(WorldMessages, SayThatASceneIsDarkUnlessAMediumGlows) {
   EXPECT_FALSE(warns("LightSource \"point\""));
 }
 
+TEST(WorldMessages, SayWhyAMeshIsInvisible) {
+  const auto messages = [](const std::string& indices) {
+    return BuildText(InWorld("LightSource \"point\" Shape \"trianglemesh\" \"point P\" "
+                             "[0 0 0 1 0 0 1 1 0] \"float alpha\" 0 \"integer indices\" " +
+                             indices))
+        .Messages();
+  };
+  EXPECT_NE(messages("[0 1 2]").find("the mesh is invisible, because its alpha is 0"),
+            std::string::npos);
+  EXPECT_EQ(messages("[0 1 2]").find("no triangles"), std::string::npos);
+}
+
 TEST(RenderSetup, InputFilesOfAWorldAreNotThoseOfTheWorldBefore) {
   const std::string image = std::string(EXPHOTON_SOURCE_DIR) + "/scenes/parts/painting.png";
   const BuiltScene built = BuildText("WorldBegin LightSource \"infinite\" \"string mapname\" \"" +
