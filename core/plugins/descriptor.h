@@ -14,7 +14,7 @@
 namespace exphoton {
 
 // Must be raised with every change of a core interface that plugins see.
-inline constexpr std::uint32_t kPluginAbi = 19;
+inline constexpr std::uint32_t kPluginAbi = 20;
 // Compiler, Real and core version. A plugin with another build tag is refused.
 const char* CoreBuildTag();
 #define EXPHOTON_BUILD_TAG ("exphoton 1, " __VERSION__ ", " EXPHOTON_REAL_NAME)

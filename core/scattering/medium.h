@@ -29,6 +29,9 @@ class Medium {
   // not.
   virtual bool Emits() const { return true; }
   virtual bool Scatters() const { return true; }
+  virtual bool Absorbs() const { return true; }
+  // Returns whether it provably changes no light.
+  bool IsProvablyEmpty() const { return !Emits() && !Scatters() && !Absorbs(); }
   // Returns the part of 0 <= t <= ray.tMax that is inside, or nullopt if there is none.
   virtual std::optional<Interval> Overlap(const Ray& ray) const = 0;
   // Returns the coefficients at p. They are all 0 outside.

@@ -89,6 +89,16 @@ void PlanPhotons(const SceneTraits& traits, RequiredFeatures* plan) {
                          : "a glossy surface that gather rays may meet");
 }
 
+// Media whose coefficients are provably 0 need neither ray marching nor transmittance.
+void PlanMedia(const Scene& scene, RequiredFeatures* plan) {
+  const bool hasMedia =
+      std::ranges::any_of(scene.Media(), [](const auto& m) { return !m->IsProvablyEmpty(); });
+  plan->Set(Feature::Media, hasMedia,
+            hasMedia                ? "a participating medium"
+            : scene.Media().empty() ? "no participating medium"
+                                    : "no medium absorbs, scatters or emits light");
+}
+
 // Motion is needed if the camera or a shape moves while the shutter is open.
 void PlanMotion(const Scene& scene, const Camera& camera, RequiredFeatures* plan) {
   const Interval shutter = camera.Shutter();
@@ -150,9 +160,7 @@ RequiredFeatures FindRequiredFeatures(const Scene& scene, const Camera& camera) 
   const SceneTraits traits(scene);
   RequiredFeatures plan;
   PlanPhotons(traits, &plan);
-  const bool hasMedia = !scene.Media().empty();
-  plan.Set(Feature::Media, hasMedia,
-           hasMedia ? "a participating medium" : "no participating medium");
+  PlanMedia(scene, &plan);
   plan.Set(Feature::Filtering, traits.needsDifferentials,
            traits.needsDifferentials ? "a filtered texture or bump map"
                                      : "no filtered texture and no bump map");

@@ -32,9 +32,10 @@ std::unique_ptr<const LightSampler> Scene::MakeLightSampler(LightSelection selec
 void Scene::SetFeatures(RequiredFeatures plan, Interval shutter) {
   effects_ = std::move(plan);
   exposure_ = {shutter.min, effects_.Needs(Feature::Motion) ? shutter.max : shutter.min};
-  if (!effects_.Needs(Feature::Media) && !parts_.media.empty()) {
+  if (!effects_.Needs(Feature::Media)) {
+    isWhole_ = isWhole_ && std::ranges::all_of(parts_.media, &Medium::IsProvablyEmpty,
+                                               [](const auto& m) -> const Medium& { return *m; });
     parts_.media.clear();
-    isWhole_ = false;
   }
   if (effects_.Needs(Feature::Environment)) return;
   isWhole_ = isWhole_ && infiniteLights_.empty();

@@ -32,6 +32,7 @@ class Exponential {
   explicit Exponential(const Settings& s)
       : a_(double(s.a)), b_(double(s.b)), bottom_(Min(s.p0, s.p1)), up_(s.up) {}
 
+  bool IsZero() const { return !(a_ > 0); }
   double At(const Point3& p) const { return a_ > 0 ? a_ * std::exp(-b_ * Height(p)) : 0; }
 
   // Let the exponent change by x over the part. The mean density is then the density at the denser

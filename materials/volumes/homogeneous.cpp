@@ -6,6 +6,7 @@ namespace exphoton {
 namespace {
 
 struct Uniform {
+  bool IsZero() const { return false; }
   double At(const Point3&) const { return 1; }
   double Integral(const Point3&, const Vector3&, Interval part) const {
     return double(part.max) - double(part.min);

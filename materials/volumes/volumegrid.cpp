@@ -39,7 +39,12 @@ const ParamTable<Settings>& Parameters() {
 class Grid {
  public:
   explicit Grid(const Settings& s)
-      : count_{s.nx, s.ny, s.nz}, density_(s.density), box_(s.p0, s.p1) {}
+      : count_{s.nx, s.ny, s.nz},
+        density_(s.density),
+        box_(s.p0, s.p1),
+        isZero_(std::ranges::all_of(density_, [](Real value) { return value == 0; })) {}
+
+  bool IsZero() const { return isZero_; }
 
   double At(const Point3& p) const {
     std::array<double, 3> cell;
@@ -129,6 +134,7 @@ class Grid {
   std::array<int, 3> count_;
   std::vector<Real> density_;
   Bounds3 box_;
+  bool isZero_;  // all densities are 0
 };
 
 std::unique_ptr<Medium> Create(const Settings& settings, const MediumContext& context) {

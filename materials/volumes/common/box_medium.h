@@ -32,6 +32,7 @@ inline const ParamTable<MediumSettings>& MediumParameters() {
 
 // Density provides At(p), the density at a point of the box, and Integral(o, d, part), the integral
 // of the density over t along o + t d, for a part inside the box. Both are in the space of the box.
+// IsZero() returns whether the density is 0 at all points.
 template <class Density>
 class BoxMedium final : public Medium {
  public:
@@ -43,8 +44,9 @@ class BoxMedium final : public Medium {
         density_(std::move(density)) {}
 
   Bounds3 Bounds() const override { return bounds_; }
-  bool Emits() const override { return !settings_.emission.IsBlack(); }
-  bool Scatters() const override { return !settings_.scattering.IsBlack(); }
+  bool Emits() const override { return MayBePositive(settings_.emission); }
+  bool Scatters() const override { return MayBePositive(settings_.scattering); }
+  bool Absorbs() const override { return MayBePositive(settings_.absorption); }
 
   // Without the margin of IntersectBox, which would add to the optical depth.
   std::optional<Interval> Overlap(const Ray& ray) const override {
@@ -97,6 +99,10 @@ class BoxMedium final : public Medium {
 
  private:
   static constexpr double kDensest = 1e20;
+
+  bool MayBePositive(const Spectrum& coefficient) const {
+    return !coefficient.IsBlack() && !density_.IsZero();
+  }
 
   MediumSettings settings_;
   Bounds3 box_, bounds_;  // in medium space and in world space

@@ -64,6 +64,29 @@ TEST(Medium, OpticalDepthIsTheIntegralOfItsDensityOverLength) {
   }
 }
 
+// A medium is empty if all coefficients or all densities are 0.
+TEST(Medium, KnowsThatItIsEmpty) {
+  const auto load = [](const std::string& medium) {
+    return LoadSceneText("WorldBegin\nVolume " + medium +
+                         "\nVolume \"homogeneous\" \"color sigma_a\" [1 1 1]\n"
+                         "LightSource \"point\"\nWorldEnd\n");
+  };
+  const auto isEmpty = [&](const std::string& medium) {
+    return load(medium).setup->scene->Media().front()->IsProvablyEmpty();
+  };
+  const std::string fog = " \"color sigma_a\" [1 1 1]";
+  for (const std::string& medium : kMedia) {
+    EXPECT_TRUE(isEmpty(medium)) << medium;
+    for (const std::string coefficient : {"sigma_a", "sigma_s", "Le"})
+      EXPECT_FALSE(isEmpty(medium + " \"color " + coefficient + "\" [0 1 0]")) << medium;
+  }
+  EXPECT_TRUE(isEmpty("\"exponential\" \"float a\" 0" + fog));
+  EXPECT_FALSE(isEmpty("\"exponential\" \"float a\" 1" + fog));
+  const std::string grid = "\"volumegrid\" \"integer nx\" 2 \"float density\" ";
+  EXPECT_TRUE(isEmpty(grid + "[0 0]" + fog));
+  EXPECT_FALSE(isEmpty(grid + "[0 1]" + fog));
+}
+
 // A grid lists its cells with x fastest, and each cell has its density at its centre.
 TEST(VolumeGrid, HasTheDensityOfEachCellAtItsMiddle) {
   std::string densities;
@@ -126,7 +149,9 @@ TEST(Exponential, IsFiniteWhereItsDensityIsNot) {
     const LoadedScene loaded = LoadSceneText(
         "WorldBegin\nVolume \"exponential\" \"float b\" -1 \"color sigma_s\" [1 0 1] \"point p1\" "
         "[1 2000 1] \"float a\" " +
-        std::string(lowest) + "\nLightSource \"point\"\nWorldEnd\n");
+        std::string(lowest) +
+        "\nVolume \"homogeneous\" \"color sigma_a\" [1 1 1]\n"  // which keeps media on
+        "LightSource \"point\"\nWorldEnd\n");
     const Medium& medium = *loaded.setup->scene->Media().front();
     const MediumPoint at = medium.At({.5, 1500, .5});
     EXPECT_TRUE(at.absorption.IsBlack()) << lowest;

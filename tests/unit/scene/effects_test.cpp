@@ -55,6 +55,19 @@ TEST(RequiredFeatures, HasIndirectLightUnderAnyOfSeveralMediaThatGlows) {
   EXPECT_FALSE(PlanOf(fog + fog + ball).Needs(Feature::Indirect));
 }
 
+TEST(RequiredFeatures, MarchesThroughNoEmptyMedia) {
+  const auto plan = [](const std::string& media) { return PlanOf(kPlainLamp + media + kBall); };
+  const std::string empty = "Volume \"homogeneous\" \"color sigma_a\" [0 0 0]\n";
+  const std::string fog = "Volume \"homogeneous\" \"color sigma_a\" [1 0 0]\n";
+  EXPECT_EQ(plan("").Get(Feature::Media).reason, "no participating medium");
+  EXPECT_FALSE(plan(empty).Needs(Feature::Media));
+  EXPECT_EQ(plan(empty).Get(Feature::Media).reason, "no medium absorbs, scatters or emits light");
+  EXPECT_FALSE(plan(empty + empty).Needs(Feature::Media));
+  EXPECT_TRUE(plan(fog).Needs(Feature::Media));
+  EXPECT_TRUE(plan(empty + fog).Needs(Feature::Media));
+  EXPECT_TRUE(plan(fog + empty).Needs(Feature::Media));
+}
+
 TEST(RequiredFeatures, OfSpecularSurfacesOnlyHasNoIndirectLight) {
   const RequiredFeatures plan = PlanOf(kPlainLamp + MaterialLine(R"("mirror")") + kBall);
   EXPECT_FALSE(plan.Needs(Feature::Indirect));
@@ -201,7 +214,8 @@ TEST(RequiredFeatures, CountsBlackLightsApart) {
 
 // A scene that needs every effect but motion.
 const std::string kEverything =
-    "LightSource \"infinite\"\nVolume \"homogeneous\"\nMaterial \"glass\"\nShape \"sphere\"\n"
+    "LightSource \"infinite\"\nVolume \"homogeneous\" \"color sigma_a\" [1 1 1]\n"
+    "Material \"glass\"\nShape \"sphere\"\n"
     "Texture \"t\" \"color\" \"checkerboard\"\nMaterial \"translucent\" \"texture Kd\" \"t\"\n"
     "Shape \"disk\"\n";
 
