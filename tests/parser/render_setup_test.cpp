@@ -303,6 +303,20 @@ TEST(WorldMessages, SayThatASceneIsDarkUnlessAMediumGlows) {
   EXPECT_FALSE(warns("LightSource \"point\""));
 }
 
+TEST(WorldMessages, SayThatAllLightsAreBlack) {
+  const auto warns = [](const std::string& world) {
+    const BuiltScene built = BuildText(InWorld(world + " Shape \"sphere\""));
+    EXPECT_EQ(built.error, "");
+    return built.Messages().find("all lights of the scene are black") != std::string::npos;
+  };
+  const std::string black = "LightSource \"point\" \"color I\" [0 0 0]\n";
+  EXPECT_TRUE(warns(black));
+  EXPECT_TRUE(warns(black + "AreaLightSource \"area\" \"color L\" [0 0 0]"));
+  EXPECT_FALSE(warns(black + "LightSource \"point\""));
+  EXPECT_FALSE(warns(black + "Volume \"homogeneous\" \"color Le\" [1 1 1]"));
+  EXPECT_FALSE(warns(""));
+}
+
 TEST(WorldMessages, SayWhyAMeshIsInvisible) {
   const auto messages = [](const std::string& indices) {
     return BuildText(InWorld("LightSource \"point\" Shape \"trianglemesh\" \"point P\" "

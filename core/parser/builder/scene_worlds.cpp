@@ -109,9 +109,11 @@ void SceneBuilder::TakeWorld(const Directive& directive, RenderSetup* setup) {
   }
   const bool glows = std::any_of(parts.media.begin(), parts.media.end(),
                                  [](const auto& medium) { return medium->Emits(); });
-  if (parts.lights.empty() && !glows)
-    CurrentLog().Warning("the scene has no light", directive.Where());
   setup->scene = std::make_unique<Scene>(std::move(parts));
+  if (setup->scene->NonBlackLightCount() == 0 && !glows)
+    CurrentLog().Warning(setup->scene->Lights().empty() ? "the scene has no light"
+                                                        : "all lights of the scene are black",
+                         directive.Where());
 }
 
 void SceneBuilder::Finish(const SourceLocation& end) {
