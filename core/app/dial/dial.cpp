@@ -94,7 +94,7 @@ std::string ReasonText(const std::vector<Candidate>& candidates, const Candidate
     if (other.integrator == chosen.integrator) continue;
     text += "; " + other.integrator + ": " +
             (other.reason.empty()
-                 ? Format("%.2g times as much", other.price.seconds / chosen.price.seconds)
+                 ? Plain(other.price.seconds / chosen.price.seconds, 2) + " times as much"
                  : other.reason);
   }
   return text;
@@ -128,7 +128,7 @@ std::string CostOfKeeping(PilotRenderer* pilots, const Candidate& kept, Wish wis
   const double ratio = best ? kept.price.seconds / best->price.seconds : 1;
   if (!(ratio > kNotableRatio))
     return "--keep costs nothing: no other settings are expected to be cheaper";
-  return Format("--keep costs about %.2g times the time of other settings (", ratio) +
+  return "--keep costs about " + Plain(ratio, 2) + " times the time of other settings (" +
          ChoiceText(*pilots, *best, false) + ")";
 }
 

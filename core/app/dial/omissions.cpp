@@ -100,9 +100,9 @@ class OmissionFinder {
     const bool isCaustics = feature == Feature::Caustics;
     const double time = isCaustics ? CausticShare() : 1;
     if (IsCovered(*light) && (1 - time) * GrowthFor(*light) < kWorthwhile) return true;
-    log_.Verbose(
-        Format("%s stays on: %.2g %% of the light of a pilot", FeatureName(feature), 100 * *light) +
-        (isCaustics ? Format(", would take %.2g %% of the time", 100 * time) : ""));
+    log_.Verbose(std::string(FeatureName(feature)) + " stays on: " + Plain(100 * *light, 2) +
+                 " % of the light of a pilot" +
+                 (isCaustics ? ", would take " + Plain(100 * time, 2) + " % of the time" : ""));
     return false;
   }
 
@@ -198,8 +198,8 @@ class OmissionFinder {
   }
 
   void Explain(Feature feature, double share, double time) {
-    log_.Verbose(Format("%s stays on: %.2g %% of the light, takes %.2g %% of the time",
-                        FeatureName(feature), 100 * share, 100 * time));
+    log_.Verbose(std::string(FeatureName(feature)) + " stays on: " + Plain(100 * share, 2) +
+                 " % of the light, takes " + Plain(100 * time, 2) + " % of the time");
   }
 
   const RenderCommand& command_;
@@ -216,8 +216,8 @@ class OmissionFinder {
 }  // namespace
 
 std::string TextOf(const OmittedEffect& effect) {
-  return Format("%s off: at most %.2g %% of the light, would take %.2g %% of the time",
-                effect.name.c_str(), 100 * effect.bound, 100 * effect.time);
+  return effect.name + " off: at most " + Plain(100 * effect.bound, 2) +
+         " % of the light, would take " + Plain(100 * effect.time, 2) + " % of the time";
 }
 
 bool HaveSameNames(const std::vector<OmittedEffect>& a, const std::vector<OmittedEffect>& b) {

@@ -167,21 +167,19 @@ MeasuredEffects MeasureEffects(const RenderCommand& command, const std::string& 
 
 std::string MeasuredText(const MeasuredEffects& measured) {
   std::string text = Format(
-      "measured      with %d x %d pixels and %s a pixel; the whole picture takes about %.2g CPU "
-      "s\n",
+      "measured      with %d x %d pixels and %s a pixel; the whole picture takes about %s CPU s\n",
       measured.width, measured.height, Counted(measured.samples, "sample").c_str(),
-      measured.wholeSeconds);
+      Plain(measured.wholeSeconds, 2).c_str());
   for (const MeasuredEffect& effect : measured.effects)
-    text += Format(
-        "  %-12sadds %.3g \u00b1 %.1g %% of the light, changes the picture by %.2g %%, "
-        "takes %.2g %% of the time\n",
-        effect.name.c_str(), 100 * effect.light, 100 * effect.lightError, 100 * effect.change,
-        100 * effect.time);
+    text += Format("  %-12s adds ", effect.name.c_str()) + Plain(100 * effect.light, 3) +
+            " \u00b1 " + Plain(100 * effect.lightError, 1) +
+            " % of the light, changes the picture by " + Plain(100 * effect.change, 2) +
+            " %, takes " + Plain(100 * effect.time, 2) + " % of the time\n";
   if (measured.parts.empty()) return text;
   text += "light         ";
   double sum = 0;
   for (const MeasuredLight& part : measured.parts) {
-    text += Format("%s %.3g %%, ", part.name.c_str(), 100 * part.share);
+    text += part.name + " " + Plain(100 * part.share, 3) + " %, ";
     sum += part.share;
   }
   return text + Format("together %.4g %%\n", 100 * sum);

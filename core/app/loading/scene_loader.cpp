@@ -62,9 +62,9 @@ void SceneLoader::GiveUp(const std::string& reason, double neededSamples, int lo
   std::vector<GivenUp> all = command_.givenUp;
   const double samples = std::min(neededSamples, double(StoppingRule::kMaxSamples));
   const std::string integrator = *command_.load.integrator;
-  log_.Notice("the picture of " + integrator + " " + reason +
-              Format(" %.3g samples a pixel instead of about %.3g, so another choice is made",
-                     samples, command_.dial->expectedSamples));
+  log_.Notice("the picture of " + integrator + " " + reason + " " + Plain(samples, 3) +
+              " samples a pixel instead of about " + Plain(command_.dial->expectedSamples, 3) +
+              ", so another choice is made");
   all.push_back({integrator, samples, looks});
   ForgetChoice(std::move(all));
 }

@@ -163,15 +163,18 @@ std::string CounterTable(const std::vector<Statistics::Counter>& counters) {
 // The error at the end of a render with --accuracy.
 std::string AccuracyText(const RunRecord& run) {
   if (!run.upperError)
-    return Format("one group of passes cannot show whether the accuracy of %.3g %% is reached",
-                  100 * *run.accuracy) +
+    return "one group of passes cannot show whether the accuracy of " +
+           Plain(100 * *run.accuracy, 3) + " % is reached" +
            (run.stoppedBy == "time-limit" ? ", and the time limit leaves no time for another" : "");
   const double percent = 100 * std::sqrt(*run.upperError);
-  std::string text = Format("the error lies below %.3g %% (at a level of 95 %%)", percent);
+  const std::string digits = Plain(percent, 3);
+  std::string text = digits == "0" ? "the estimated error is 0"
+                                   : "the error lies below " + digits + " % (at a level of 95 %)";
   if (!run.omitted.empty())
-    text += Format(", of which effects left out are at most %.2g %%", 100 * BoundOf(run.omitted));
+    text +=
+        ", of which effects left out are at most " + Plain(100 * BoundOf(run.omitted), 2) + " %";
   if (run.stoppedBy == "accuracy") return text;
-  text += Format(", which is not the accuracy of %.3g %%: ", 100 * *run.accuracy);
+  text += ", which is not the accuracy of " + Plain(100 * *run.accuracy, 3) + " %: ";
   if (run.stoppedBy == "bias") return text + "the bias is larger; more photons reduce it";
   if (run.stoppedBy == "time-limit") return text + "the time limit came first";
   return text + "the limit of samples or passes came first";
@@ -231,8 +234,8 @@ std::string StoppingText(const RunRecord& run) {
   if (run.lastDiskArea)
     text += Format(", the last one with %.3g %% of the radii", 100 * std::sqrt(*run.lastDiskArea));
   if (!run.noise) return run.accuracy ? text : text + ", which give no estimate of the noise";
-  text += Format("; noise \u00b1%.2g %% (bias not included), relMSE of the noise %.3g",
-                 100 * std::sqrt(*run.noise), *run.noise);
+  text += "; noise \u00b1" + Plain(100 * std::sqrt(*run.noise), 2) +
+          Format(" %% (bias not included), relMSE of the noise %.3g", *run.noise);
   if (!run.sharingBias) return text;
   return text + Format(", of the bias of shared gathers %.2g \u00b1 %.2g", run.sharingBias->squared,
                        run.sharingBias->standardError);

@@ -11,6 +11,7 @@
 #include "core/app/analysis/numbers.h"
 #include "core/app/options/arguments.h"
 #include "core/app/quote/missing_light.h"
+#include "core/base/format.h"
 
 namespace exphoton::cli {
 namespace {
@@ -21,11 +22,7 @@ struct Offer {
   std::string reason;  // why there is no price
 };
 
-std::string Percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g %%", 100 * share);
-  return text;
-}
+std::string Percent(double share) { return Plain(100 * share, 3) + " %"; }
 
 PilotMean MeanOf(const Quote& quote) { return {quote.integrator, quote.light}; }
 

@@ -86,6 +86,9 @@ TEST_F(ExplainMeasureTest, WorksWithAllEffects) {
   const ProgramResult result = Run({"explain", "furnace.pbrt", "--measure", "--effects", "all"});
   ASSERT_EQ(result.status, 0) << result.err;
   EXPECT_NEAR(Number(result.out, "indirect +adds (\\S+) "), 25, .5);
+  WriteFurnace("exphotonmap");  // which computes "transmission", the longest name
+  ExpectIn("  transmission adds ",
+           Run({"explain", "furnace.pbrt", "--measure", "--effects", "all"}).out);
 }
 
 TEST_F(ExplainMeasureTest, IsRefusedWhereItHasNoMeaning) {

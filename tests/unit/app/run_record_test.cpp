@@ -204,6 +204,26 @@ TEST_F(RunRecordTest, SaysWhichRuleStoppedIt) {
   EXPECT_TRUE(StoppingText(run).starts_with("stopped by a signal: 1 sample a pixel in 1 pass"));
 }
 
+TEST_F(RunRecordTest, HasTheErrorOfAnAccuracyInPlainNumbers) {
+  run.accuracy = .05;
+  run.stoppedBy = "accuracy";
+  run.upperError = 0;
+  run.noise = 0;
+  EXPECT_EQ(StoppingText(run),
+            "the estimated error is 0: 12 samples a pixel in 4 passes; noise \u00b10 % (bias not "
+            "included), relMSE of the noise 0");
+  run.upperError = .0016;
+  EXPECT_TRUE(StoppingText(run).starts_with("the error lies below 4 % (at a level of 95 %): 12 "))
+      << StoppingText(run);
+  run.upperError = 250;
+  run.omitted = {{"glossy", 1.234, .75}};
+  run.stoppedBy = "time-limit";
+  EXPECT_TRUE(StoppingText(run).starts_with(
+      "the error lies below 1580 % (at a level of 95 %), of which effects left out are at most "
+      "120 %, which is not the accuracy of 5 %: "))
+      << StoppingText(run);
+}
+
 TEST_F(RunRecordTest, ExplainsTheScene) {
   Loaded().sceneHash = 0xabcdef;
   Loaded().plugins = {"filters/triangle", "shapes/sphere"};
