@@ -48,7 +48,9 @@ double BlockBias::Root(double squared) { return std::sqrt(std::max(squared, 0.))
 
 BlockBiasEstimator::BlockBiasEstimator(int width, int height, std::span<const Group> groups,
                                        double quantile)
-    : columns_((width + kCell - 1) / kCell),
+    : width_(width),
+      height_(height),
+      columns_((width + kCell - 1) / kCell),
       rows_((height + kCell - 1) / kCell),
       quantile_(quantile),
       pairShare_(1),
@@ -175,6 +177,7 @@ BlockBias BlockBiasEstimator::Estimate(int blockWidth) const {
   BlockBias bias;
   bias.blockWidth = blockWidth;
   bias.blocks = columns * rows;
+  bias.width = std::min(blockWidth, width_), bias.height = std::min(blockWidth, height_);
   double pixels = 0, squares = 0;
   for (const Sums& block : blocks) {
     bias.squared += block.pixels * ProductOf(block);

@@ -23,7 +23,8 @@ struct BlockBias {
   int blocks = 0;
   double squared = 0;  // may be negative by chance
   double lower = 0, upper = 0;
-  double smallest = 0;  // the upper end of the interval of an estimate of 0
+  double smallest = 0;        // the upper end of the interval of an estimate of 0
+  int width = 0, height = 0;  // of the largest block, which is no larger than the picture
 
   // Returns a quantity of relMSE as an error: its root, or 0 for negative values.
   static double Root(double squared);
@@ -71,6 +72,7 @@ class BlockBiasEstimator {
   double CommonVariance() const;
   double Quantile() const;
 
+  int width_, height_;  // of the picture
   int columns_, rows_;  // of cells
   double quantile_;
   std::vector<double> shares_;

@@ -118,7 +118,7 @@ std::vector<std::string> DetailTexts(const Certificate& certificate) {
   const BlockBias& bias = certificate.bias;
   std::vector<std::string> texts{
       Format("bias of %d block%s of %d x %d pixels, from %lld corrected gather rays", bias.blocks,
-             bias.blocks == 1 ? "" : "s", bias.blockWidth, bias.blockWidth,
+             bias.blocks == 1 ? "" : "s", bias.width, bias.height,
              static_cast<long long>(certificate.corrections)),
       certificate.SaysNothing()
           ? kAdvice

@@ -45,6 +45,20 @@ TEST(Certificate, HasNoDigitsForHugeErrors) {
   EXPECT_EQ(text, "error over 1000 % = noise 4.0 %, bias over 1000 % (over 1000 to over 1000 %)");
 }
 
+// A block that is wider than the picture has the size of the picture.
+TEST(Certificate, HasNoBlockThatIsLargerThanThePicture) {
+  constexpr int kWidth = 1, kHeight = 5;
+  Corrections corrections({0, 0, kWidth, kHeight}, 1);
+  for (int group = 0; group < 2; ++group) {
+    for (int y = 0; y < kHeight; ++y)
+      corrections.Add({0, y}, {1, Spectrum(Real(y % 2 + group)), 1}, 1);
+    corrections.EndPass(group, 1);
+  }
+  const std::vector<double> levels(3 * kWidth * kHeight, 1);
+  const std::string text = AllTexts(*Certify(corrections, levels, .5, {}));
+  EXPECT_NE(text.find("bias of 1 block of 1 x 5 pixels"), std::string::npos) << text;
+}
+
 // Two groups have the correction .1 in all pixels. Half of the pixels have the radiance 1, and
 // the others 10. Their true radiance is 1.1 and 10.1.
 TEST(Certificate, HasTheBiasRelativeToTheTrueRadiance) {
