@@ -68,17 +68,25 @@ std::string Change(const char* what, const std::string& from, const std::string&
 
 std::string Count(double number) { return std::to_string(std::int64_t(number)); }
 
+// Returns the numbers of photons that are not the scene's, each with a comma before it.
+std::string PhotonsText(const DialSettings& settings) {
+  std::string text;
+  const auto add = [&](const char* what, double count, double factor) {
+    if (count > 0 && factor != 1)
+      text += std::string(", ") + Change(what, Count(count), Count(count * factor));
+  };
+  add("indirect photons", settings.indirectPhotons, settings.photons);
+  add("caustic photons", settings.causticPhotons, std::max(settings.photons, 1.));
+  return text;
+}
+
 // Returns what is chosen, with the settings of the scene before the arrows.
 std::string ChoiceText(const PilotRenderer& pilots, const Candidate& chosen, bool stopsSharing) {
   std::string text = Change("integrator", pilots.SceneIntegrator(), chosen.integrator) + ", " +
                      Change("samples a pixel", std::to_string(pilots.SceneSamples()),
                             "about " + Count(chosen.price.samples));
   const DialSettings& settings = chosen.settings;
-  const auto photons = [&](const char* what, double count, double factor) {
-    if (count > 0 && factor != 1) text += ", " + Change(what, Count(count), Count(count * factor));
-  };
-  photons("indirect photons", settings.indirectPhotons, settings.photons);
-  photons("caustic photons", settings.causticPhotons, std::max(settings.photons, 1.));
+  text += PhotonsText(settings);
   const int rays = pilots.SceneGatherRays();
   if (settings.gatherRays > 0)
     text += ", " + Change("gather rays", rays > 0 ? std::to_string(rays) : "default",
@@ -224,11 +232,11 @@ std::optional<std::string> MultiplyPhotons(RenderCommand* command) {
   settings.photons *= kMorePhotons;
   dial.mayRaisePhotons = MayRaisePhotons(settings);
   Replace(earlier, settings, command);
-  std::string text = settings.photons == 1
-                         ? "all photons of the scene"
-                         : Format("%.3g times the photons of the scene", settings.photons);
-  dial.text += ", " + text;
-  return text;
+  const std::string before = PhotonsText(earlier);
+  const std::size_t at = before.empty() ? std::string::npos : dial.text.find(before);
+  dial.text.replace(std::min(at, dial.text.size()), before.size(), PhotonsText(settings));
+  return settings.photons == 1 ? "all photons of the scene"
+                               : Format("%.3g times the photons of the scene", settings.photons);
 }
 
 }  // namespace

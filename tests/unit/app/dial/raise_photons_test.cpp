@@ -46,6 +46,20 @@ TEST(RaisePhotons, ReplacesFewPhotonsByThoseOfTheScene) {
   EXPECT_EQ(ValuesOf(command), (std::vector<std::string>{"7", "4000"}));
 }
 
+// The text has the final numbers, whatever was chosen first.
+TEST(RaisePhotons, ChangesTheNumbersInTheTextOfTheChoice) {
+  Log log(Log::Level::Quiet, Log::Sink::Memory);
+  RenderCommand command = ChosenWith(.25);
+  const std::string integrator = "integrator path -> exphotonmap", rays = ", gather rays 8 -> 16";
+  command.dial->text = integrator + ", indirect photons 1000 -> 250" + rays;
+  ASSERT_TRUE(RaisePhotons(2, &command, log));
+  EXPECT_EQ(command.dial->text, integrator + rays);
+  ASSERT_TRUE(RaisePhotons(3, &command, log));
+  EXPECT_EQ(command.dial->text, integrator + rays + ", indirect photons 1000 -> 4000");
+  ASSERT_TRUE(RaisePhotons(4, &command, log));
+  EXPECT_EQ(command.dial->text, integrator + rays + ", indirect photons 1000 -> 16000");
+}
+
 // The next render counts the looks so far, and knows that photons cost more.
 TEST(RaisePhotons, InformsTheNextRender) {
   Log log(Log::Level::Quiet, Log::Sink::Memory);
