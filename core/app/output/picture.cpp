@@ -143,7 +143,7 @@ void WarnOfUnseenLight(const std::vector<std::string>& lights, const std::string
                        Log& log) {
   for (const std::string& light : lights)
     log.Warning("the error does not contain " + light + ", because integrator \"" + integrator +
-                    "\" does not find it",
+                    "\" does not find this light",
                 {}, "--integrator exphotonmap finds this light");
 }
 

@@ -80,8 +80,10 @@ TEST_F(ChoiceTest, SaysHowMuchLightANamedIntegratorLacks) {
   ASSERT_EQ(result.status, 0) << result.err;
   ExpectIn("accuracy 10%: integrator path, ", result.err);
   ExpectIn("warning: the error does not contain about ", result.err);
-  ExpectIn(" % of the light that exphotonmap finds, because integrator \"path\" does not find it",
-           result.err);
+  ExpectIn(
+      " % of the light that exphotonmap finds, because integrator \"path\" does not find this "
+      "light",
+      result.err);
   ExpectIn("% of the light that exphotonmap finds\"", Read("room.json"));
   ExpectIn("accuracy/notCovered", Run({"info", "room.exr"}).out);
 }
