@@ -30,8 +30,7 @@ const ParamTable<Settings>& Parameters() {
   using S = PhotonSettings;
   static const ParamTable<S> base{
       Param("maxdepth", &S::maxDepth,
-            "bounces after the first surface; 0: emission and direct light only. The ray after the "
-            "last bounce still collects the light of media")
+            "bounces after the first surface; 0: emission and direct light only")
           .Basic()
           .Range(0, 10000)
           .WhenNamed(100),

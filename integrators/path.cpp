@@ -17,8 +17,7 @@ struct Settings {
 const ParamTable<Settings>& Parameters() {
   static const ParamTable<Settings> table{
       Param("maxdepth", &Settings::maxDepth,
-            "bounces after the first surface; 0: emission and direct light only. The ray after the "
-            "last bounce still collects the light of media")
+            "bounces after the first surface; 0: emission and direct light only")
           .Range(0, 10000)
           .WhenNamed(100)};
   return table;
