@@ -68,6 +68,8 @@ void GatherFragments::MoveDown(int y0, int y1) {
 
 void GatherFragments::Pixel::Add(const GatherRecords& records, Point2 film, Real sampleWeight,
                                  GatherShare share) {
+  constexpr std::size_t kUsualSamples = 4;  // of a pixel, at least, where gathers are shared
+  if (samples.empty()) samples.reserve(kUsualSamples);
   for (const GatherRecord& record : records) {
     const auto isOnSurface = [&](const GatherFragment& fragment) {
       return fragment.depth == record.depth &&

@@ -164,8 +164,10 @@ TEST_F(AccuracyTest, PilotsOfPhotonMapsHaveAQuarterOfThePixels) {
   EXPECT_NEAR(priceOf(all) / priceOf(few), 4, 1) << few << all;
 }
 
-// Shared gathers have less noise in a larger picture, whose pilots have the same pixels.
+// Shared gathers have less noise in a larger picture, whose pilots have the same pixels. The sampler
+// takes any number of samples.
 TEST_F(AccuracyTest, LargePicturesNeedFewerSamples) {
+  Write("room.pbrt", "Sampler \"halton\"\n" + Read("room.pbrt"));
   const auto samples = [&](const char* size) {
     const std::string quote =
         Run({"quote", "room.pbrt", "--integrators", "exphotonmap", "--accuracies", "1%",
