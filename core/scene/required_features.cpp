@@ -93,10 +93,11 @@ void PlanPhotons(const SceneTraits& traits, RequiredFeatures* plan) {
 void PlanMedia(const Scene& scene, RequiredFeatures* plan) {
   const bool hasMedia =
       std::ranges::any_of(scene.Media(), [](const auto& m) { return !m->IsProvablyEmpty(); });
+  const bool hasNone = scene.Media().empty() && !scene.HadEmptyMedia();
   plan->Set(Feature::Media, hasMedia,
-            hasMedia                ? "a participating medium"
-            : scene.Media().empty() ? "no participating medium"
-                                    : "no medium absorbs, scatters or emits light");
+            hasMedia  ? "a participating medium"
+            : hasNone ? "no participating medium"
+                      : "no medium absorbs, scatters or emits light");
 }
 
 // Motion is needed if the camera or a shape moves while the shutter is open.

@@ -33,8 +33,10 @@ void Scene::SetFeatures(RequiredFeatures plan, Interval shutter) {
   effects_ = std::move(plan);
   exposure_ = {shutter.min, effects_.Needs(Feature::Motion) ? shutter.max : shutter.min};
   if (!effects_.Needs(Feature::Media)) {
-    isWhole_ = isWhole_ && std::ranges::all_of(parts_.media, &Medium::IsProvablyEmpty,
-                                               [](const auto& m) -> const Medium& { return *m; });
+    const bool areEmpty =
+        std::ranges::all_of(parts_.media, [](const auto& m) { return m->IsProvablyEmpty(); });
+    isWhole_ = isWhole_ && areEmpty;
+    hadEmptyMedia_ = hadEmptyMedia_ || (areEmpty && !parts_.media.empty());
     parts_.media.clear();
   }
   if (effects_.Needs(Feature::Environment)) return;

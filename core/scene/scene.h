@@ -81,6 +81,8 @@ class Scene {
   void SetFeatures(RequiredFeatures plan, Interval shutter = {0, 0});
   // Returns whether SetFeatures has removed nothing so far, so that any features can follow.
   bool IsWhole() const { return isWhole_; }
+  // Returns whether it has removed media that are provably empty.
+  bool HadEmptyMedia() const { return hadEmptyMedia_; }
   // The time interval of camera rays and photons.
   Interval Exposure() const { return exposure_; }
 
@@ -105,7 +107,7 @@ class Scene {
   const Aggregate* aggregate_;
   Bounds3 bounds_;
   std::vector<const Light*> infiniteLights_;
-  bool isWhole_ = true;
+  bool isWhole_ = true, hadEmptyMedia_ = false;
   RequiredFeatures effects_;
   Interval exposure_{0, 0};
 };

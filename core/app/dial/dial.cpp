@@ -165,7 +165,7 @@ std::int64_t FirstSamples(const Candidate& chosen, const RenderCommand& command,
 std::int64_t MostSamples(double expected) {
   constexpr double kFew = 16;
   const double most = kMostGrowth * std::max(expected, kFew);
-  return std::int64_t(std::min(most, double(StoppingRule::kMaxSamples)));
+  return std::int64_t(std::min(most, double(kMostFirst)));
 }
 
 // States how many passes the accuracy is likely to take (--max-passes). A pass that is rendered in

@@ -98,7 +98,7 @@ PassesResult RenderPicture(const RenderCommand& command, const RenderJob& job,
   rule.timeLimit = command.timeLimit;
   rule.start = start;
   if (command.load.samplesPerPixel) rule.maxSamples = *command.load.samplesPerPixel;
-  if (command.dial) rule.maxSamples = std::max(rule.maxSamples, command.dial->mostSamples);
+  if (command.dial) rule.maxSamples = command.dial->mostSamples;
   if (command.maxPasses > 0 || command.isProgressive) {
     rule.passSamples = job.sampler.SamplesPerPixel();
     rule.maxSamples =

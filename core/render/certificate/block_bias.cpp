@@ -196,7 +196,7 @@ BlockBias BlockBiasEstimator::Estimate(int blockWidth) const {
 BlockBias BlockBiasEstimator::EstimateFor(double wanted) const {
   const int most = std::max(columns_, rows_) * kCell;
   BlockBias best;
-  for (int width = 2 * kCell;; width *= 2) {
+  for (int width = kFinestBlock;; width *= 2) {
     const BlockBias bias = Estimate(std::min(width, most));
     if (best.blocks == 0 || bias.smallest < best.smallest) best = bias;
     if (bias.smallest <= wanted || width >= most) break;

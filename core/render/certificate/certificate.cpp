@@ -117,9 +117,9 @@ constexpr const char* kAdvice =
 std::vector<std::string> DetailTexts(const Certificate& certificate) {
   const BlockBias& bias = certificate.bias;
   std::vector<std::string> texts{
-      Format("bias of %d block%s of %d x %d pixels, from %lld corrected gather rays", bias.blocks,
+      Format("bias of %d block%s of %d x %d pixels, from %s", bias.blocks,
              bias.blocks == 1 ? "" : "s", bias.width, bias.height,
-             static_cast<long long>(certificate.corrections)),
+             Counted(certificate.corrections, "corrected gather ray").c_str()),
       certificate.SaysNothing()
           ? kAdvice
           : "the interval (95 %) cannot certify a bias below " + Percent(bias.smallest)};

@@ -55,7 +55,7 @@ FinalGather::Rays::Rays(std::size_t most, const Bsdf& bsdf, LiContext& context)
       reflectance(SharedReflectance(bsdf, context)) {
   if (reflectance.IsBlack()) return;
   white = context.arena.AllocateArray<Spectrum>(most);
-  isDiffuse = !bsdf.Has(LobeSet::Glossy);
+  isAllShared = !bsdf.Has(LobeSet::Glossy);
   brightest_ = reflectance.g > reflectance.r ? 1 : 0;
   if (reflectance.b > reflectance[brightest_]) brightest_ = 2;
 }
@@ -71,7 +71,7 @@ Spectrum FinalGather::Rays::OffWhite(const Spectrum& light) const {
 
 void FinalGather::Rays::SeparateDiffuse(const ShadingPoint& point, Real scale) {
   Spectrum& weight = weights[count];
-  if (isDiffuse) {
+  if (isAllShared) {
     white[count] = OffWhite(weight);
     weight = {};
     return;

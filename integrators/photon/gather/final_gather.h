@@ -84,7 +84,7 @@ class FinalGather {
     // and the diffuse reflectance of the surface.
     Spectrum* white = nullptr;
     Spectrum reflectance;
-    bool isDiffuse = false;  // all light goes to `white`, and `weights` are 0
+    bool isAllShared = false;  // all light goes to `white`, and `weights` are 0
 
     // Moves the diffuse part of the weight of ray `count` to `white`. `scale` is the factor on the
     // lobe's value f.
@@ -129,7 +129,7 @@ Spectrum FinalGather::Gather(const ShadingPoint& point, LiContext& context,
       observed = context.arena.template AllocateArray<Spectrum>(rays.count);
   for (std::size_t i = 0; i < rays.count; ++i) {
     const Spectrum radiance = incident.Read(segments[i]);
-    if (!rays.isDiffuse) gathered += rays.weights[i] * radiance;
+    if (!rays.isAllShared) gathered += rays.weights[i] * radiance;
     if (rays.white) white += rays.white[i] * radiance;
     if (observed) observed[i] = radiance;
   }

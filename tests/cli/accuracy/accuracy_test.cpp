@@ -71,7 +71,13 @@ TEST_F(AccuracyTest, TriesNoGuidingWhereThereIsNoIndirectLight) {
         "Material \"mirror\" Translate 0 0 4 Shape \"sphere\"\nWorldEnd\n");
   const ProgramResult result = Render("10%", {}, "mirrors.pbrt");
   ASSERT_EQ(result.status, 0) << result.err;
-  ExpectIn("guidedpath: no pilot, because there is no indirect light to guide", result.err);
+  const std::string reason = "guidedpath: no pilot, because there is no indirect light to guide";
+  ExpectIn(reason, result.err);
+  // The integrator of the file computes no indirect light, but the room has it.
+  WriteRoom("room.pbrt", "directlighting", 2000);
+  const ProgramResult room = Render("20%");
+  ASSERT_EQ(room.status, 0) << room.err;
+  EXPECT_EQ(room.err.find(reason), std::string::npos) << room.err;
 }
 
 TEST_F(AccuracyTest, RendersUntilTheErrorIsSmall) {
@@ -164,8 +170,8 @@ TEST_F(AccuracyTest, PilotsOfPhotonMapsHaveAQuarterOfThePixels) {
   EXPECT_NEAR(priceOf(all) / priceOf(few), 4, 1) << few << all;
 }
 
-// Shared gathers have less noise in a larger picture, whose pilots have the same pixels. The sampler
-// takes any number of samples.
+// Shared gathers have less noise in a larger picture, whose pilots have the same pixels. The
+// sampler takes any number of samples.
 TEST_F(AccuracyTest, LargePicturesNeedFewerSamples) {
   Write("room.pbrt", "Sampler \"halton\"\n" + Read("room.pbrt"));
   const auto samples = [&](const char* size) {

@@ -54,7 +54,7 @@ TEST_F(ExplainMeasureTest, WorksWithPhotonMaps) {
 }
 
 // Motion switches sharing of gathers off. A render without motion must not share them either.
-TEST_F(ExplainMeasureTest, FindsNoLightInMotionThatNobodySees) {
+TEST_F(ExplainMeasureTest, FindsNoLightInMotionOutsideOfThePicture) {
   WriteFurnace("exphotonmap");
   std::string text = Read("furnace.pbrt");
   text.insert(text.find("WorldEnd"),

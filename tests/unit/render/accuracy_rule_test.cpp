@@ -58,30 +58,48 @@ TEST(AccuracyRule, CountsTheBiasAndItsInterval) {
   EXPECT_TRUE(rule.IsReached());
   EXPECT_FALSE(rule.IsOutOfReach());
   const double growth = rule.Growth();
-  const double later = std::hypot(kFirst * .00003 / growth, .00008);
+  const double later = std::hypot(kFirst * .00003 / growth, .00008 / std::sqrt(growth));
   EXPECT_NEAR(.0002 / growth + .0001 + later, .0004, 1e-9);
   EXPECT_NEAR(rule.NextGoal().quantile, kSecond, 1e-6);
 }
 
-// More samples bring finer blocks rather than a narrower interval, once the interval can certify
-// what the accuracy wants (.00005). Before, its part without bias falls as 1 / samples, and the
-// other part as the root of that.
-TEST(AccuracyRule, ExpectsIntervalsOfTheBiasToStopShrinking) {
-  for (const double smallest : {.00005, .0001, .0002}) {
-    AccuracyRule rule(.02, .125);
-    Certificate certificate = Bias(.0001, 0, .0001 + .0003);
-    certificate.bias.smallest = smallest;
-    rule.Look({.noise = .0002, .noiseError = 0, .certificate = &certificate});
-    const double growth = rule.Growth();
-    if (smallest == .00005) {
-      EXPECT_TRUE(std::isinf(growth));
-      continue;
-    }
-    const double factor = std::max(1 / growth, .00005 / smallest);
-    const double other = .0003 * .0003 - smallest * smallest;
-    const double later = std::sqrt(smallest * smallest * factor * factor + other * factor);
-    EXPECT_NEAR(.0002 / growth + .0001 + later, .0004, 1e-9);
+// Returns the growth of a picture whose interval of the bias, .0003 wide, needs to be .0001 wide.
+double GrowthWithInterval(double smallest, int blockWidth) {
+  AccuracyRule rule(.02, .125);  // wants to certify .00005
+  Certificate certificate = Bias(.0001, 0, .0001 + .0003);
+  certificate.bias.smallest = smallest;
+  certificate.bias.blockWidth = blockWidth;
+  rule.Look({.noise = .0002, .noiseError = 0, .certificate = &certificate});
+  return rule.Growth();
+}
+
+// The finest blocks stay, and the noise of their corrections falls as 1 / samples. Without a bias,
+// the interval falls like this noise, and otherwise like its root.
+TEST(AccuracyRule, ExpectsNarrowerIntervalsOfTheFinestBlocks) {
+  const double withBias = GrowthWithInterval(0, 8), without = GrowthWithInterval(.0003, 8);
+  EXPECT_NEAR(.0002 / withBias + .0001 + .0003 / std::sqrt(withBias), .0004, 1e-9);
+  EXPECT_NEAR((.0002 + .0003) / without + .0001, .0004, 1e-9);
+}
+
+// Finer blocks follow, whose interval is no narrower, until there are none.
+TEST(AccuracyRule, ExpectsIntervalsToStayWhereFinerBlocksFollow) {
+  const double finest = GrowthWithInterval(.00005, 8);
+  EXPECT_GT(finest, 1.5);
+  EXPECT_LT(finest, 3);
+  double before = finest;
+  for (const int width : {16, 32, 64}) {
+    const double growth = GrowthWithInterval(.00005, width);
+    EXPECT_GT(growth, before);
+    EXPECT_GT(growth, width / 8);
+    EXPECT_LT(growth, 3 * width / 8);
+    before = growth;
   }
+}
+
+// Before the interval can certify what the accuracy wants, the blocks stay as wide as they are.
+TEST(AccuracyRule, ExpectsNarrowerIntervalsUntilTheyCertifyEnough) {
+  EXPECT_NEAR(GrowthWithInterval(.0002, 64), GrowthWithInterval(.0002, 8), 1e-9);
+  EXPECT_GT(GrowthWithInterval(.00006, 64), 1.5 * GrowthWithInterval(.00006, 8));
 }
 
 // A look at another picture takes its part of the 5 %.

@@ -63,6 +63,11 @@ TEST(RequiredFeatures, MarchesThroughNoEmptyMedia) {
   EXPECT_FALSE(plan(empty).Needs(Feature::Media));
   EXPECT_EQ(plan(empty).Get(Feature::Media).reason, "no medium absorbs, scatters or emits light");
   EXPECT_FALSE(plan(empty + empty).Needs(Feature::Media));
+  // The scene has removed the medium, and another render plans it again.
+  const LoadedScene loaded =
+      LoadSceneText("WorldBegin\n" + std::string(kPlainLamp) + empty + kBall + "WorldEnd\n");
+  const RequiredFeatures again = FindRequiredFeatures(*loaded.setup->scene, *loaded.setup->camera);
+  EXPECT_EQ(again.Get(Feature::Media).reason, "no medium absorbs, scatters or emits light");
   EXPECT_TRUE(plan(fog).Needs(Feature::Media));
   EXPECT_TRUE(plan(empty + fog).Needs(Feature::Media));
   EXPECT_TRUE(plan(fog + empty).Needs(Feature::Media));

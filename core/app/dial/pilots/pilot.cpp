@@ -74,7 +74,9 @@ PilotRenderer::PilotRenderer(const RenderCommand& command, std::string scene,
   if (setup_->integrator && setup_->scene)
     sceneSharesGathers_ = PlanSharing(*setup_->integrator, *setup_->scene, *setup_->camera).isOn;
   hasSpecularSurfaces_ = setup_->scene && setup_->scene->Features().Needs(Feature::Specular);
-  hasIndirectLight_ = setup_->scene && setup_->scene->Features().Needs(Feature::Indirect);
+  // The features of the scene leave out what its own integrator does not compute.
+  hasIndirectLight_ = setup_->scene &&
+                      Intersects(setup_->scene->Primitives().PossibleLobes(), LobeSet::NonSpecular);
   sceneUsedPhotons_ = GivenNumber(*setup_, "nused");
   sceneDirectPhotons_ = GivenNumber(*setup_, "directphotons");
   scenePaths_ = GivenNumber(*setup_, "maxphotonpaths");

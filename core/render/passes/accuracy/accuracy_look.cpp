@@ -18,10 +18,10 @@ std::optional<Certificate> LookAtError(const LookedAtPasses& passes, AccuracyRul
               sum.NoiseBetweenGroups(), sum.NoiseFreedom(), passes.ofMaps, passes.photonNoise});
   log.Verbose(
       Format("after %s a pixel: noise %.3g \u00b1 %.2g of relMSE, bias %.3g to %.3g, "
-             "error below %.3g %%",
+             "error below %s %%",
              Counted(sum.SamplesPerPixel(), "sample").c_str(), *sum.Noise(), noiseError,
              certificate ? certificate->LowerBias() : 0, certificate ? certificate->UpperBias() : 0,
-             100 * std::sqrt(rule->Upper())));
+             Plain(100 * std::sqrt(rule->Upper()), 3).c_str()));
   return certificate;
 }
 

@@ -29,19 +29,21 @@ double NoiseDistance(const ErrorEstimate& estimate, double chance, double z) {
   return estimate.betweenGroups * (degrees / lowest - 1);
 }
 
-// The interval of the bias lies this far above its estimate (relMSE). More samples make it narrower
-// until it can certify the smallest bias that is wanted. Then certificates have finer blocks, which
-// keep its width.
+// The interval of the bias lies this far above its estimate (relMSE). The noise of the corrections
+// falls as 1 / samples, and the interval becomes narrower until it can certify the smallest bias
+// that is wanted. Then certificates take finer blocks, which keep its width, as long as there are
+// any: blocks of half the width have twice the noise.
 struct BiasDistance {
   double now = 0;       // at the look
   double smallest = 0;  // the part that there would be without bias
   double wanted = 0;    // of this part
+  double finer = 1;     // the width of the blocks, in widths of the finest ones
 
-  // The other part is the product of the bias and the noise of the corrections, so both parts
-  // follow from the factor by which this noise falls.
+  // The other part is the root of the product of the bias and the noise of the corrections, so both
+  // parts follow from the factor by which this noise falls.
   double After(double growth) const {
-    if (smallest <= wanted) return now;
-    const double factor = std::max(1 / growth, wanted / smallest);
+    const double enough = smallest > wanted ? wanted / smallest : 1;
+    const double factor = std::max(1 / growth, std::min(enough, finer / growth));
     const double other = std::max(now * now - smallest * smallest, 0.);
     return std::sqrt(std::max(smallest * smallest * factor * factor + other * factor, 0.));
   }
@@ -117,8 +119,13 @@ void AccuracyRule::Look(const ErrorEstimate& estimate) {
   const double fixed = isKept ? estimate.fixedNoise : 0;
   const bool isShared = certificate && certificate->sharing;
   const double sharing = isShared ? std::max(certificate->sharing->squared, 0.) : 0;
-  const BiasDistance biasDistance{ofBias, certificate ? certificate->bias.smallest : 0,
-                                  biasShare_ * room_};
+  BiasDistance biasDistance{ofBias};
+  if (certificate) {
+    biasDistance.smallest = certificate->bias.smallest;
+    biasDistance.wanted = biasShare_ * room_;
+    biasDistance.finer =
+        std::max(double(certificate->bias.blockWidth) / BlockBiasEstimator::kFinestBlock, 1.);
+  }
   growth_ = GrowthUntil({estimate.noise - fixed, z * estimate.noiseError, sharing,
                          fixed + bias - sharing, biasDistance},
                         room_);

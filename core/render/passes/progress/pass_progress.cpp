@@ -27,7 +27,7 @@ double Seconds(std::chrono::steady_clock::duration time) {
 
 std::string NoiseText(double noise, const std::optional<double>& target) {
   if (target) return Format("noise %.2g of relMSE (target %.3g)", noise, *target);
-  return Format("noise \u00b1%.2g %%", 100 * std::sqrt(noise));
+  return "noise \u00b1" + Plain(100 * std::sqrt(noise), 2) + " %";
 }
 
 }  // namespace
@@ -179,7 +179,7 @@ void PassProgress::ShowPasses(const PassSum& sum, const AccuracyRule* accuracy) 
   else if (rule_.passSamples > 0)
     details = {Format("%d passes", sum.Passes())};
   if (accuracy && std::isfinite(accuracy->Upper()) && accuracy->Upper() > 0)
-    details.push_back(Format("error below %.2g %%", 100 * std::sqrt(accuracy->Upper())));
+    details.push_back("error below " + Plain(100 * std::sqrt(accuracy->Upper()), 2) + " %");
   if (const auto noise = sum.Noise(); noise && std::isfinite(*noise))
     details.push_back(NoiseText(*noise, rule_.targetError));
   shown_->SetDetails(std::move(details));
