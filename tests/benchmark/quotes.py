@@ -7,12 +7,14 @@ Quotes of more than MOST_SECONDS are not rendered. The error of a picture is mea
 reference of guidedpath (picture_errors.py). REFERENCE_SECONDS may be samples, such as 256spp. The
 error is a root mean square over three seeds, because the error of one picture can be far from the
 mean where bright samples are rare. "to reach" is the CPU time to reach the accuracy: that of the
-command, with the time of its samples times the squared ratio of errors, but at least one sample.
+command, with the time of its samples times the squared ratio of errors. Fewer samples than the
+command's are a half of them, a quarter and so on, because samplers take such numbers.
 Accuracies where the noise of the reference exceeds a fifth of the squared error are left out. The
 folder of --cache keeps references for later runs.
 """
 import argparse
 import json
+import math
 import os
 import tempfile
 
@@ -20,6 +22,12 @@ from picture_errors import Scene, folder_of, run
 from quote_offers import offers
 
 SEEDS = "77", "78", "79"
+
+
+def share_needed(ratio, samples):
+    """Returns the share of the samples that brings this ratio of errors to 1."""
+    share = max(ratio ** 2, 1 / samples)
+    return share if share > 1 else 2 ** -math.floor(math.log2(1 / share))
 
 
 def main():
@@ -63,7 +71,7 @@ def main():
                 samples = statistics["samplesPerPixel"]
                 cpu, of_samples = sum(times) / len(times), sum(parts) / len(times)
                 error = max(sum(errors) / len(errors), 0) ** .5
-                needed = cpu + of_samples * (max((error / accuracy) ** 2, 1 / samples) - 1)
+                needed = cpu + of_samples * (share_needed(error / accuracy, samples) - 1)
                 count += 1
                 near += 1 / 1.5 <= needed / predicted <= 1.5
                 inside += least <= needed <= most
