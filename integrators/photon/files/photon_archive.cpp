@@ -22,6 +22,8 @@ void Transfer(Spectrum* spectrum, ByteArchive* archive) {
   archive->Values(&spectrum->r, &spectrum->g, &spectrum->b);
 }
 
+void Transfer(Normal3* n, ByteArchive* archive) { archive->Values(&n->x, &n->y, &n->z); }
+
 std::string Differences(const PhotonIdentity& there, const PhotonIdentity& here) {
   std::map<std::string, std::array<std::string, 2>> values;
   for (const auto& [name, value] : there) values[name][0] = value;
@@ -36,8 +38,10 @@ std::string Differences(const PhotonIdentity& there, const PhotonIdentity& here)
 }
 
 bool IsFinite(const RadiancePhotonSite& site) {
-  const Real sum = site.p.x + site.p.y + site.p.z + site.n.x + site.n.y + site.n.z +
-                   site.reflectance.MaxComponent() + site.transmittance.MaxComponent();
+  Real sum = site.p.x + site.p.y + site.p.z + site.reflectance.MaxComponent() +
+             site.transmittance.MaxComponent();
+  for (const Normal3& n : {site.n, site.normals.smooth, site.normals.bumped})
+    sum += n.x + n.y + n.z;
   return std::isfinite(sum);
 }
 
@@ -55,11 +59,14 @@ void Transfer(LightTally* light, ByteArchive* archive) {
 }
 
 void Transfer(RadiancePhotonSite* site, ByteArchive* archive) {
-  archive->Values(&site->p.x, &site->p.y, &site->p.z, &site->n.x, &site->n.y, &site->n.z);
+  archive->Values(&site->p.x, &site->p.y, &site->p.z);
+  Transfer(&site->n, archive);
   Transfer(&site->reflectance, archive);
   Transfer(&site->transmittance, archive);
   archive->Values(&site->glossyShare);
   Transfer(&site->isCoated, archive);
+  Transfer(&site->normals.smooth, archive);
+  Transfer(&site->normals.bumped, archive);
   if (archive->IsLoading() && !IsFinite(*site)) throw ArchiveError("a radiance site is not finite");
 }
 

@@ -24,6 +24,13 @@ struct Photon {
   bool hasNegativeSign = false;  // see SignedPower
 };
 
+// The shading normals of a surface point, of unit length. They are equal where there are no bumps.
+struct ShadingNormals {
+  Normal3 smooth, bumped;  // interpolated, and with bumps
+
+  bool HasBumps() const { return bumped != smooth; }
+};
+
 // RadiancePhotonSite is a stored photon at which radiance will be precomputed.
 struct RadiancePhotonSite {
   Point3 p;
@@ -32,6 +39,7 @@ struct RadiancePhotonSite {
   Spectrum transmittance;
   Real glossyShare = 0;   // glossy part of the non-specular albedo, in [0,1]
   bool isCoated = false;  // Bsdf::IsCoated
+  ShadingNormals normals = {};
 };
 
 enum class PhotonKind { Direct, Caustic, Indirect };

@@ -8,6 +8,7 @@
 
 #include "core/scattering/bxdf.h"
 #include "core/spatial/search_start.h"
+#include "core/transport/shading_normal.h"
 
 namespace exphoton {
 namespace {
@@ -73,8 +74,8 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
                disk2 = std::min(OwnDisk2(i, spacings), around.radius2);
     if (distance2 > disk2) continue;
     largest2 = std::max(largest2, disk2);
-    const Real coat = query.isCoated ? CoatTransmission(AbsDot(Direction(i), query.n)) : Real(1);
-    const Spectrum part = Alpha(i) * (coat * kInvPi / (Real(paths_) * disk2));
+    const Real weight = WeightOf(query, i);
+    const Spectrum part = Alpha(i) * (weight * kInvPi / (Real(paths_) * disk2));
     const bool isOwn = !(distance2 > 0);
     (isOwn ? found.own : found.e) += part;
     (isOwn ? found.signedOwn : found.signedE) += part * Sign(i);
@@ -85,6 +86,15 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
   found.density = double(around.photons.size() - owns) / double(radius2) * query.diskArea;
   found.radius = std::sqrt(largest2 > 0 ? std::min(radius2, ofDisks2) : radius2);
   return found;
+}
+
+// Returns the factor of the photon's power, by the surface at the place of an irradiance.
+Real PhotonMap::WeightOf(const PhotonQuery& query, std::uint32_t i) const {
+  Real weight = 1;
+  if (query.isCoated) weight = CoatTransmission(AbsDot(Direction(i), query.n));
+  if (query.normals.HasBumps())
+    weight *= CosineRatio(Direction(i), query.normals.bumped, query.normals.smooth);
+  return weight;
 }
 
 // Few photons, or photons that coincide, show no spacing.

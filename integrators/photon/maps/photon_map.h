@@ -27,6 +27,8 @@ struct PhotonQuery {
   // For irradiance: each photon is weighted by CoatTransmission at its angle of incidence.
   bool isCoated = false;
   double diskArea = 1;  // of the disk, relative to the one that k and maxDistance give; in (0,1]
+  // For irradiance: each photon is weighted by the ratio of its cosines to these normals.
+  ShadingNormals normals = {};
 };
 
 // PhotonNeighbourhood holds the photons of one density estimate. If k photons are found, the k-th
@@ -116,6 +118,7 @@ class PhotonMap {
     return view;
   }
 
+  Real WeightOf(const PhotonQuery& query, std::uint32_t i) const;
   // Returns the squared radius of the disk that holds this many photons, in multiples of the
   // spacing, or infinity if it is not known.
   Real OwnDisk2(std::uint32_t i, Real spacings) const;

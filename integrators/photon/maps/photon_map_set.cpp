@@ -175,13 +175,14 @@ double PhotonMapSet::PhotonDensity(const ShadingPoint& point, Arena* arena) cons
 }
 
 PhotonMapSet::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const Normal3& n,
-                                                          Arena* arena, bool isCoated) const {
+                                                          Arena* arena, bool isCoated,
+                                                          const ShadingNormals& normals) const {
   std::array<PhotonMap::Irradiance, kPhotonKindCount> parts;
   double density = 0;
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
-    parts[m] =
-        maps_[m].EstimateIrradiance({p, n, nUsed_, radii_[m], true, isCoated, diskArea_}, arena);
+    parts[m] = maps_[m].EstimateIrradiance(
+        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, normals}, arena);
     density += parts[m].density;
   }
   Irradiance total;

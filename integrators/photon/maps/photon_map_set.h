@@ -58,14 +58,14 @@ class PhotonMapSet {
   double PhotonDensity(const ShadingPoint& point, Arena* arena) const;
 
   // Estimates the irradiance on the side of n, summed over all three maps. A photon at p itself
-  // counts with OwnPhotonWeight.
+  // counts with OwnPhotonWeight. isCoated and normals: as in PhotonQuery.
   struct Irradiance {
     Spectrum e;
     Spectrum signedE;  // each photon has its sign
     Real radius = 0;   // mean of the maps' radii, weighted by the luminance of each map
   };
   Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena,
-                                bool isCoated = false) const;
+                                bool isCoated = false, const ShadingNormals& normals = {}) const;
 
  private:
   // Part is the light that an estimate contains.

@@ -31,12 +31,12 @@ void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Ar
                           PackedRadiance(value, site.glossyShare, site.isCoated),
                           PackedRatios(signedValue, value)};
   };
-  const auto front = maps.EstimateIrradiance(site.p, site.n, arena, site.isCoated);
+  const auto front = maps.EstimateIrradiance(site.p, site.n, arena, site.isCoated, site.normals);
   if (entries.size() == 1) {
     entries[0] = entry(site.n, front.radius, front, {});
     return;
   }
-  const auto back = maps.EstimateIrradiance(site.p, -site.n, arena, site.isCoated);
+  const auto back = maps.EstimateIrradiance(site.p, -site.n, arena, site.isCoated, site.normals);
   const Real radius = std::max(front.radius, back.radius);
   entries[0] = entry(site.n, radius, front, back);
   entries[1] = entry(-site.n, radius, back, front);

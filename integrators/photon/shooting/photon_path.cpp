@@ -6,6 +6,7 @@
 
 #include "core/transport/shading_normal.h"
 #include "integrators/photon/maps/rest_pose.h"
+#include "integrators/photon/shooting/radiance_site.h"
 
 namespace exphoton {
 namespace {
@@ -250,13 +251,7 @@ void PhotonTracer::Path::Store(PhotonKind kind, const ShadingPoint& point) {
   hasStored_[std::size_t(kind)] = true;
   const Real fraction = batch_.radianceFraction;
   if (!(fraction > 0) || !(samples_.Independent() < fraction)) return;
-  const Spectrum reflectance = point.bsdf.Rho(LobeSet::DiffuseReflection);
-  const Spectrum transmittance = point.bsdf.Rho(LobeSet::DiffuseTransmission);
-  const bool isGlossy = point.bsdf.Has(LobeSet::Glossy);
-  const Real glossy = isGlossy ? point.bsdf.Rho(LobeSet::Glossy).Y() : Real(0);
-  const Real all = glossy + (reflectance + transmittance).Y();
-  chunk_->sites.push_back({p, rest.Normal(FaceForward(surface.ng, point.Wo())), reflectance,
-                           transmittance, SafeDivide(glossy, all, Real(0)), point.bsdf.IsCoated()});
+  chunk_->sites.push_back(RadianceSiteAt(point, rest));
 }
 
 void PhotonTracer::Path::Drop() {

@@ -118,6 +118,41 @@ TEST(PhotonShading, AnEstimateOnALeaningNormalIsTheLightOnThatNormal) {
 }
 TEST(PhotonShading, AnEstimateOnABumpIsTheLightOnItsNormal) { ExpectLightOnLeaningNormal(true); }
 
+// A small ceiling over the floor of LeaningFloor, seen from below. All its light comes from the
+// floor.
+std::string CeilingOverFloor(double degrees, bool isBumped) {
+  std::string scene = LeaningFloor(degrees, isBumped);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = scene.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    scene.replace(at, from.size(), to);
+  };
+  replace("LookAt 0 0 1  0 0 0", "LookAt 0 0 .1  0 0 1");
+  replace("[-.6 .6 -.6 .6]", "[-.1 .1 -.1 .1]");
+  replace(R"("photonmap" "bool directwithphotons" "true")",
+          R"("exphotonmap" "bool sharedgather" "false" "integer finalgathersamples" 64)");
+  replace("\"integer nused\" 400 \"bool finalgather\" \"false\"", "\"integer nused\" 50");
+  replace("WorldEnd\n",
+          "Material \"matte\"\nShape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] "
+          "\"point P\" [-.1 -.1 .5 .1 -.1 .5 .1 .1 .5 -.1 .1 .5]\nWorldEnd\n");
+  return scene;
+}
+
+// Photons that arrive on the interpolated normal have another power, so these two floors are two
+// ways to the same light.
+TEST(PhotonShading, GatherRaysSeeTheLightOfBumps) {
+  for (const double degrees : {60.0, -30.0}) {
+    const auto measure = [&](bool isBumped) {
+      return EstimateOverSeeds([&](std::uint64_t seed) {
+        TestRenderOptions options;
+        options.seed = seed;
+        return MeanRadiance(RenderSceneText(CeilingOverFloor(degrees, isBumped), options).image);
+      });
+    };
+    EXPECT_TRUE(IsWithin(.03, measure(true), measure(false).mean)) << degrees << " degrees";
+  }
+}
+
 // A pleated sheet of strips along z, whose slopes alternate. All its shading normals point upwards.
 // Sunlight grazes every second strip. Density estimates are as wide as several strips.
 std::string PleatedSheet(const std::string& integrator) {

@@ -109,8 +109,8 @@ TEST_F(StateFileTest, NamesOtherFilesAndVersions) {
   std::string bytes = WriteSome();
   EXPECT_TRUE(Has(Reason("some other file, of another program"), "not the state of"));
   EXPECT_FALSE(IsStateFile(Path()));
-  bytes[16] = 10;
-  EXPECT_TRUE(Has(Reason(bytes), "version 10, and this program reads version 9"));
+  bytes[16] = 11;
+  EXPECT_TRUE(Has(Reason(bytes), "version 11, and this program reads version 10"));
   EXPECT_TRUE(Has(Reason(bytes.substr(0, 17)), "cut off"));
   try {
     const StateFile file(folder_.File("none.state"));

@@ -197,7 +197,10 @@ double OwnDisk2(const PhotonMap& map, const Point3& p, int k, double most2) {
 }
 
 TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
-  for (const bool isCoated : {false, true}) {
+  const ShadingNormals bump{Normal3(0, 0, 1), Normal3(Real(.6), 0, Real(.8))};
+  for (const auto& [isCoated, normals] :
+       {std::pair(false, ShadingNormals()), std::pair(true, ShadingNormals()),
+        std::pair(false, bump)}) {
     for (const int k : {30, 1000}) {
       PhotonSettings settings;
       settings.nUsed = k;
@@ -213,7 +216,11 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
             if (distance2 > disk2) continue;
             largest2 = std::max(largest2, disk2);
             const double x = 1 - std::abs(double(photon.wi.z)) / 2;
-            const double passed = isCoated ? (1 - std::pow(x, 5)) * 28 / 23 : 1;
+            const double onBump = std::abs(.6 * double(photon.wi.x) + .8 * double(photon.wi.z)) /
+                                  std::abs(double(photon.wi.z));
+            const double passed = isCoated             ? (1 - std::pow(x, 5)) * 28 / 23
+                                  : normals.HasBumps() ? std::min(onBump, 100.)
+                                                       : 1;
             for (int c = 0; c < 3; ++c) part[c] += passed * double(photon.alpha[c]) / disk2;
           }
           for (int c = 0; c < 3; ++c) {
@@ -224,7 +231,7 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
           weights += y;
           radii += y * std::sqrt(std::min(estimate.radius2, largest2 / PhotonMap::kOwnDisk));
         }
-        const auto found = maps.EstimateIrradiance({0, 0, 0}, n, &arena_, isCoated);
+        const auto found = maps.EstimateIrradiance({0, 0, 0}, n, &arena_, isCoated, normals);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(double(found.e[c]), sum[c], 3e-3 * sum[c]);
         EXPECT_NEAR(double(found.radius), radii / weights, 1e-3);
       }
