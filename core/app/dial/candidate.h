@@ -22,21 +22,21 @@ struct Candidate {
   std::string reason;       // why it has no price; "": it has one
   double lackingShare = 0;  // of the light that exphotonmap finds, what this one lacks; 0: unknown
   // Prices are in units of CountedCost, and photons in factors of the scene's.
-  Price price;
-  DialSettings settings;
-  PilotMean mean;                    // of the last pilot
-  bool isRough = false;              // the price and the mean are from a rough pilot
-  double leastPrice = 0;             // bound of the price if a rough pilot was cut off
-  double secondsPerCost = 0;         // CPU time of the pilots, for messages only
-  double correctedShare = 0;         // of the gather rays; 0: no certificate
-  double biasShare = 0;              // of the squared error, what the certificate should resolve
-  double photonShare = 0;            // of the price, what photons still cost
-  double priceOfSample = 0;          // one per pixel
-  double photonSamples = 0;          // what one set of photons costs, in samples per pixel
-  double causticShare = 0;           // of the price, what caustic maps still cost
-  bool hasScatter = false;           // the noise of the pilots is uncertain
-  std::vector<MeasuredLight> parts;  // of the light of the last pilot
-  std::vector<OmittedEffect> omitted;
+  Price price = {};
+  DialSettings settings = {};
+  PilotMean mean = {};        // of the last pilot
+  bool isRough = false;       // the price and the mean are from a rough pilot
+  double leastPrice = 0;      // bound of the price if a rough pilot was cut off
+  double secondsPerCost = 0;  // CPU time of the pilots, for messages only
+  double correctedShare = 0;  // of the gather rays; 0: no certificate
+  double biasShare = 0;       // of the squared error, what the certificate should resolve
+  double photonShare = 0;     // of the price, what photons still cost
+  double priceOfSample = 0;   // one per pixel
+  double photonSamples = 0;   // what one set of photons costs, in samples per pixel
+  double causticShare = 0;    // of the price, what caustic maps still cost
+  bool hasScatter = false;    // the noise of the pilots is uncertain
+  std::vector<MeasuredLight> parts = {};  // of the light of the last pilot
+  std::vector<OmittedEffect> omitted = {};
   bool hasSoughtOmissions = false;  // before its pilot with all photons
 
   // Returns the expected price; kNoPrice if there is a reason.

@@ -53,7 +53,7 @@ struct DialChoice {
 struct LaterChoice {
   std::int64_t firstSamples = 1;  // as in DialChoice
   double photons = 1;             // as in DialSettings
-  std::vector<GivenUp> givenUp;
+  std::vector<GivenUp> givenUp = {};
 };
 
 struct RenderCommand {

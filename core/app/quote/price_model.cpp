@@ -12,7 +12,7 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr double kMostPhotons = 64;
+constexpr double kMostPhotons = 64, kMostForGuess = 16;
 constexpr int kHalvings = 40;
 constexpr double kMostSamples = 1e12;
 constexpr double kCountable = 0x1p53;  // integers up to this one are exact
@@ -45,10 +45,19 @@ double SamplesOfGroup(const PriceModel& model, double left, const Order& order) 
   return high;
 }
 
+// Returns the larger one of the known bias and the guess. A guess may be wrong by much, so it asks
+// for kMostForGuess times the photons at most. With these it is half of the error or less, so that
+// a guess alone never makes an error impossible. Photons that may not change need no guess.
+double BiasWith(double k, const PriceModel& model, double error) {
+  if (!model.hasPhotons) return model.bias / k;
+  const double guess = std::min(model.guessedBias, error * std::sqrt(kMostForGuess) / 2);
+  return std::max(model.bias / k, guess / std::sqrt(std::min(k, kMostForGuess)));
+}
+
 // Returns the setting with k times the photons; nullopt: no number of samples is enough.
 std::optional<Price> PriceWith(double k, const PriceModel& model, const Order& order) {
   const double squared = order.error * order.error;
-  const double bias = (k < 1 ? std::max(model.bias, model.biasOfFewer) : model.bias) / k;
+  const double bias = BiasWith(k, model, order.error);
   const double photonNoise = model.photonNoise / k;
   const auto samplesWith = [&](int sets) -> std::optional<double> {
     const double left = squared - photonNoise / sets - bias * bias;

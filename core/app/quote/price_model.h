@@ -50,7 +50,7 @@ struct PriceModel {
     double error = 0;              // the standard error of the bias
   } sharing;
   double bias = 0, biasUpper = 0;          // relative; the upper end of the interval
-  double biasOfFewer = 0;                  // at least this counts as the bias where k < 1
+  double guessedBias = 0;                  // of the scene's photons, pixel by pixel
   double leastPhotons = 1;                 // the smallest k
   double fixed = 0, maps = 0, sample = 0;  // CPU seconds
   double keptMaps = 0;                     // the part of `maps` that does not fall where k < 1

@@ -14,7 +14,7 @@ namespace exphoton::cli {
 struct QuoteScene {
   std::string path;
   // Of the renders of each integrator, such as --set and --resolution.
-  std::map<std::string, std::vector<std::string>> options;
+  std::map<std::string, std::vector<std::string>> options = {};
   const Sampler* sampler = nullptr;  // as in Order
 };
 

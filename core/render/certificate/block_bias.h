@@ -39,7 +39,7 @@ class BlockBiasEstimator {
     double share;  // of the samples of all groups
   };
   static constexpr int kCell = 4;  // pixels; the spread between cells gives the noise
-  static constexpr int kFinestBlock = 2 * kCell;
+  static constexpr int kFinestBlock = kCell;
 
   // There must be two groups or more. All groups have the same size. The normal quantile decides
   // how wide the intervals are.

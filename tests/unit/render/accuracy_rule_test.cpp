@@ -76,30 +76,30 @@ double GrowthWithInterval(double smallest, int blockWidth) {
 // The finest blocks stay, and the noise of their corrections falls as 1 / samples. Without a bias,
 // the interval falls like this noise, and otherwise like its root.
 TEST(AccuracyRule, ExpectsNarrowerIntervalsOfTheFinestBlocks) {
-  const double withBias = GrowthWithInterval(0, 8), without = GrowthWithInterval(.0003, 8);
+  const double withBias = GrowthWithInterval(0, 4), without = GrowthWithInterval(.0003, 4);
   EXPECT_NEAR(.0002 / withBias + .0001 + .0003 / std::sqrt(withBias), .0004, 1e-9);
   EXPECT_NEAR((.0002 + .0003) / without + .0001, .0004, 1e-9);
 }
 
 // Finer blocks follow, whose interval is no narrower, until there are none.
 TEST(AccuracyRule, ExpectsIntervalsToStayWhereFinerBlocksFollow) {
-  const double finest = GrowthWithInterval(.00005, 8);
+  const double finest = GrowthWithInterval(.00005, 4);
   EXPECT_GT(finest, 1.5);
   EXPECT_LT(finest, 3);
   double before = finest;
-  for (const int width : {16, 32, 64}) {
+  for (const int width : {8, 16, 32, 64}) {
     const double growth = GrowthWithInterval(.00005, width);
     EXPECT_GT(growth, before);
-    EXPECT_GT(growth, width / 8);
-    EXPECT_LT(growth, 3 * width / 8);
+    EXPECT_GT(growth, width / 4);
+    EXPECT_LT(growth, 3 * width / 4);
     before = growth;
   }
 }
 
 // Before the interval can certify what the accuracy wants, the blocks stay as wide as they are.
 TEST(AccuracyRule, ExpectsNarrowerIntervalsUntilTheyCertifyEnough) {
-  EXPECT_NEAR(GrowthWithInterval(.0002, 64), GrowthWithInterval(.0002, 8), 1e-9);
-  EXPECT_GT(GrowthWithInterval(.00006, 64), 1.5 * GrowthWithInterval(.00006, 8));
+  EXPECT_NEAR(GrowthWithInterval(.0002, 64), GrowthWithInterval(.0002, 4), 1e-9);
+  EXPECT_GT(GrowthWithInterval(.00006, 64), 1.5 * GrowthWithInterval(.00006, 4));
 }
 
 // A look at another picture takes its part of the 5 %.

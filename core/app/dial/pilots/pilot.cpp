@@ -45,9 +45,9 @@ double GivenNumber(const RenderSetup& setup, const std::string& name) {
 // the scenes of docs/decisions/0050-bias-certificate.md it is up to 4 times this share, as a mean
 // over blocks of pixels. Bias inside blocks is not known.
 double GuessedBias(double usedPhotons, double indirectPhotons) {
-  constexpr double kOfShare = 16, kUsedByDefault = 50;
+  constexpr double kOfRoot = .5, kUsedByDefault = 50;
   const double used = usedPhotons > 0 ? usedPhotons : kUsedByDefault;
-  return indirectPhotons > 0 ? kOfShare * used / indirectPhotons : 0;
+  return indirectPhotons > 0 ? kOfRoot * std::sqrt(used / indirectPhotons) : 0;
 }
 
 // Returns the photons that a map should have. Where the scene does not say it, `stored` photons are

@@ -29,8 +29,8 @@ namespace exphoton::cli {
 struct PilotRequest {
   std::string integrator;
   int samples = 2;  // a pixel
-  DialSettings settings;
-  std::vector<OmittedEffect> omitted;
+  DialSettings settings = {};
+  std::vector<OmittedEffect> omitted = {};
   bool estimatesBias = false;  // the rays of the estimate are counted as samples
   // Whether the bias of shared gathers is estimated. The render then does not check them, which
   // saves a little time.

@@ -42,7 +42,7 @@ bool PilotSeries::RenderRough() {
                  1);
   causticMaps_ = tenth.caustic / kFewPhotons;
   model_.leastPhotons = settings_.indirectPhotons > 0 ? kLeastPhotons : 1;
-  model_.biasOfFewer = last_.guessedBias;
+  model_.guessedBias = last_.guessedBias;
   model_.FitNoise({PilotOf(last_, kFewPhotons)});
   return true;
 }

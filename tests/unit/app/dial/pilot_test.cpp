@@ -118,6 +118,7 @@ TEST_F(PilotTest, PairsForOmissionsCountWithTheLikelyPrice) {
   const auto [rough, likely] = RoughAndLikely(renderer.get(), .0001);
   EXPECT_TRUE(likely.reason.empty()) << likely.reason;
   EXPECT_LT(likely.price.seconds, rough.price.seconds);
+  EXPECT_EQ(likely.price.photons, rough.price.photons);
   EXPECT_NEAR(rough.price.samples / likely.price.samples, std::sqrt(20), .05);
 }
 

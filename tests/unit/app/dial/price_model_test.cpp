@@ -63,18 +63,48 @@ TEST(PriceModel, DrawsTheSlopeToTheUsualOne) {
   EXPECT_GT(unsure.slopeError, 5 * sure.slopeError);
 }
 
-// Half of the photons have twice the bias, and a guess counts where the bias is not known.
+// A guess counts where the bias is not known. It grows as the root of the area of an estimate.
 TEST(PriceModel, TakesFewerPhotonsWhereTheBiasAllowsIt) {
   PriceModel model;
   model.camera = .01, model.maps = 1, model.sample = .001, model.hasPhotons = true;
   EXPECT_EQ(PriceOf(model, {.1})->photons, 1);
   model.leastPhotons = 1. / 16;
-  model.biasOfFewer = .01;
+  model.guessedBias = .04;
   const auto price = PriceOf(model, {.1});
   ASSERT_TRUE(price);
-  EXPECT_EQ(price->photons, .125);  // the bias is 8 %, and 16 % with half of these
-  EXPECT_EQ(price->samples, 3);     // .01 / (.01 - .0064)
-  EXPECT_EQ(PriceOf(model, {.012})->photons, 1);
+  EXPECT_EQ(price->photons, .25);  // the bias is 8 %, and 11 % with half of these
+  EXPECT_EQ(price->samples, 3);    // .01 / (.01 - .0064)
+  EXPECT_EQ(PriceOf(model, {.045})->photons, 1);
+}
+
+// Four times the photons have half of the guessed bias. Bias that is known falls with the photons.
+TEST(PriceModel, TakesMorePhotonsForAGuess) {
+  PriceModel model;
+  model.camera = .01, model.maps = 1, model.sample = .2, model.hasPhotons = true;
+  model.guessedBias = .05;
+  const auto price = PriceOf(model, {.04});
+  ASSERT_TRUE(price);
+  EXPECT_EQ(price->photons, 4);   // the bias is 2.5 %, and 3.5 % with half of these
+  EXPECT_EQ(price->samples, 11);  // .01 / (.0016 - .000625)
+  model.bias = .05;
+  EXPECT_EQ(PriceOf(model, {.04})->photons, 4);
+  model.bias = .2;  // 4 times the photons leave 5 %
+  EXPECT_EQ(PriceOf(model, {.04})->photons, 8);
+}
+
+// A guess may be wrong by much, so it asks for 16 times the photons at most.
+TEST(PriceModel, TakesNoMoreThanSixteenTimesThePhotonsForAGuess) {
+  PriceModel model;
+  model.camera = .01, model.maps = .001, model.sample = 1, model.hasPhotons = true;
+  model.guessedBias = 10;
+  const auto price = PriceOf(model, {.04});
+  ASSERT_TRUE(price);
+  EXPECT_EQ(price->photons, 16);
+  model.maps = 1000;
+  EXPECT_EQ(PriceOf(model, {.04})->photons, 8);  // the bias counts as .04 sqrt(16 / 8) / 2
+  model.hasPhotons = false;
+  ASSERT_TRUE(PriceOf(model, {.04}));
+  EXPECT_EQ(PriceOf(model, {.04})->samples, 7);  // .01 / .0016
 }
 
 // 134 samples would be enough. A sampler that takes powers of two renders 256.

@@ -40,8 +40,8 @@ TEST(EmissionTree, DrawsNumbersWithTheDensityThatItStates) {
     ASSERT_NEAR(density, tree.Density(u), 1e-9 * density);
     for (std::size_t d = 2; d < u.size(); ++d) ASSERT_NEAR(u[d], before[d], 1e-6);
     inverse += 1 / density;
-    inCorner += u[0] < .25 && u[1] >= .75;
-    inLast += u[0] >= .25;
+    inCorner += double(u[0]) < .25 && double(u[1]) >= .75;
+    inLast += double(u[0]) >= .25;
   }
   // Five standard deviations
   EXPECT_NEAR(inCorner / kCount, .45, .008);

@@ -160,7 +160,7 @@ TEST(BlockBias, UsesTheFinestBlocksThatCertifyWhatIsWanted) {
     for (float& value : *group) value = float(.5 * Normal(&random));
   const std::vector<BlockBiasEstimator::Group> groups{{a, .5}, {b, .5}};
   const BlockBiasEstimator estimator(kWidth, kHeight, groups);
-  EXPECT_EQ(estimator.EstimateFor(1).blockWidth, 8);
+  EXPECT_EQ(estimator.EstimateFor(1).blockWidth, 4);
   const double middle = estimator.Estimate(16).smallest;
   EXPECT_EQ(estimator.EstimateFor(middle).blockWidth, 16);
   EXPECT_EQ(estimator.EstimateFor(0).blockWidth, 64);
