@@ -29,6 +29,11 @@ Corners CornersOf(const TriangleMesh& mesh, std::uint32_t index) {
   return corners;
 }
 
+// Returns whether the sine between two vectors is at most 1e-9. The arguments are the squared
+// lengths of their cross product and of both. Doubles hold these products of single-precision
+// vectors.
+bool AreParallel(double cross2, double a2, double b2) { return cross2 <= 1e-18 * a2 * b2; }
+
 // UvGradient solves f(u,v) = f0 + fu u + fv v from the differences of f along two edges. The
 // determinant is set to 0 if the uv edges are parallel or zero.
 struct UvGradient {
@@ -38,7 +43,7 @@ struct UvGradient {
     du1 = double(c[1].uv.x) - double(c[0].uv.x), dv1 = double(c[1].uv.y) - double(c[0].uv.y);
     du2 = double(c[2].uv.x) - double(c[0].uv.x), dv2 = double(c[2].uv.y) - double(c[0].uv.y);
     determinant = du1 * dv2 - dv1 * du2;
-    if (std::abs(determinant) <= 1e-9 * std::hypot(du1, dv1) * std::hypot(du2, dv2))
+    if (AreParallel(determinant * determinant, du1 * du1 + dv1 * dv1, du2 * du2 + dv2 * dv2))
       determinant = 0;
   }
   Vec3d ByU(const Vec3d& f1, const Vec3d& f2) const {
@@ -56,9 +61,9 @@ void SetDerivatives(const Corners& c, const UvGradient& gradient, SurfaceInterac
   if (gradient.determinant != 0) {
     surface->dpdu = gradient.ByU(e1, e2).ToReal();
     surface->dpdv = gradient.ByV(e1, e2).ToReal();
-    const Vec3d u(surface->dpdu), v(surface->dpdv);
+    const Vec3d u(surface->dpdu), v(surface->dpdv), across = Cross(u, v);
     if (IsFinite(surface->dpdu) && IsFinite(surface->dpdv) &&
-        Length(Cross(u, v)) > 1e-9 * Length(u) * Length(v)) {
+        !AreParallel(Dot(across, across), Dot(u, u), Dot(v, v))) {
       return;
     }
   }
