@@ -185,6 +185,8 @@ void Explorer::Refine(double most, bool hasRivals) {
 PriceModel Explorer::Model() const {
   PriceModel model = series_.Model();
   if (wish_.keepsPhotons) model.hasPhotons = false;
+  // More photons are also more caustic photons, which the guess is not about.
+  if (wish_.isTimed || series_.Settings().causticPhotons > 0) model.mostForGuess = 1;
   return model.WithNoise(1 / gain_, model.slope);
 }
 

@@ -52,6 +52,7 @@ bool MayGuidingWin(const std::vector<Candidate>& others);
 struct Wish {
   double error = 0;           // root of relMSE
   bool keepsPhotons = false;  // the number of photons must be the scene's
+  bool isTimed = false;       // a guess must not ask for more photons
   bool mayMissLight = false;  // also an integrator that never finds some light has a price
   // Returns the effects that a candidate may leave out, and changes its price. Null: none.
   std::function<std::vector<OmittedEffect>(Candidate*)> findOmissions{};

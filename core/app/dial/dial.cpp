@@ -274,7 +274,10 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
   const Wish wish{
-      *command.accuracy, command.keepsSettings, names.size() == 1,
+      *command.accuracy,
+      command.keepsSettings,
+      command.timeLimit.has_value(),
+      names.size() == 1,
       [&](Candidate* candidate) { return FindOmissions(command, &pilots, candidate, log); },
       command.givenUp};
   const std::vector<Candidate> candidates =

@@ -12,7 +12,7 @@
 namespace exphoton::cli {
 namespace {
 
-constexpr double kMostPhotons = 64, kMostForGuess = 16;
+constexpr double kMostPhotons = 64;
 constexpr int kHalvings = 40;
 constexpr double kMostSamples = 1e12;
 constexpr double kCountable = 0x1p53;  // integers up to this one are exact
@@ -46,12 +46,13 @@ double SamplesOfGroup(const PriceModel& model, double left, const Order& order) 
 }
 
 // Returns the larger one of the known bias and the guess. A guess may be wrong by much, so it asks
-// for kMostForGuess times the photons at most. With these it is half of the error or less, so that
-// a guess alone never makes an error impossible. Photons that may not change need no guess.
+// for mostForGuess times the photons at most. With these it is half of the error or less, so that a
+// guess alone never makes an error impossible. Photons that may not change need no guess.
 double BiasWith(double k, const PriceModel& model, double error) {
   if (!model.hasPhotons) return model.bias / k;
-  const double guess = std::min(model.guessedBias, error * std::sqrt(kMostForGuess) / 2);
-  return std::max(model.bias / k, guess / std::sqrt(std::min(k, kMostForGuess)));
+  const double most = model.mostForGuess;
+  const double guess = std::min(model.guessedBias, error * std::sqrt(most) / 2);
+  return std::max(model.bias / k, guess / std::sqrt(std::min(k, most)));
 }
 
 // Returns the setting with k times the photons; nullopt: no number of samples is enough.
@@ -170,7 +171,7 @@ std::optional<Price> PriceOf(const PriceModel& model, const Order& order) {
   const double steep = std::min(model.slope + kQuantile90 * model.slopeError, kMostSlope);
   PriceModel cheap = model.WithNoise(1 / (1 + width), std::max(steep, model.slope));
   PriceModel dear = model.WithNoise(1 + width, std::min(model.slope, kLeastSlope));
-  cheap.photonNoise = cheap.bias = 0;
+  cheap.photonNoise = cheap.bias = cheap.guessedBias = 0;
   cheap.sharing = {};
   dear.bias = std::max(model.biasUpper, model.bias);
   dear.sharing.bias = std::max(dear.sharing.bias, 0.) + kQuantile90 * model.sharing.error;

@@ -2,13 +2,16 @@
 // PriceModel predicts what an accuracy costs with one integrator, from small renders of the scene
 // (pilots). With n samples a pixel in g groups of passes, and m sets of maps with k times the
 // photons,
-//   error^2 = noise(n / g) / g + photonNoise / (m k) + (bias / k)^2 + sharing(n / g),
+//   error^2 = noise(n / g) / g + photonNoise / (m k) + bias(k)^2 + sharing(n / g),
 //   seconds = fixed + m MapsFor(k) + n sample.
 // m is 1 where the groups should keep their photons (core/render/passes/photons/photon_sets.h),
 // otherwise g. Errors are roots of relMSE. noise(m) is the noise of the camera samples of one
-// group: pilots show it, and it falls as m^-slope beyond them. The area of density estimates falls
-// with the number of photons, and bias is proportional to this area. sharing(m) is the squared bias
-// of shared gathers, which share within a group.
+// group: pilots show it, and it falls as m^-slope beyond them. bias(k) is the larger one of
+// bias / k, which pilots show in blocks of pixels, and guessedBias / sqrt(k), a guess for single
+// pixels: the area of density estimates falls with the number of photons, the bias of large regions
+// is proportional to the area, and the bias at edges to the radius
+// (docs/decisions/0112-guess-of-the-bias-of-photons.md). sharing(m) is the squared bias of shared
+// gathers, which share within a group.
 #pragma once
 
 #include <optional>
@@ -50,7 +53,8 @@ struct PriceModel {
     double error = 0;              // the standard error of the bias
   } sharing;
   double bias = 0, biasUpper = 0;          // relative; the upper end of the interval
-  double guessedBias = 0;                  // of the scene's photons, pixel by pixel
+  double guessedBias = 0;                  // of the scene's photons, in single pixels
+  double mostForGuess = 4;                 // the largest k for the sake of the guess, >= 1
   double leastPhotons = 1;                 // the smallest k
   double fixed = 0, maps = 0, sample = 0;  // CPU seconds
   double keptMaps = 0;                     // the part of `maps` that does not fall where k < 1

@@ -38,7 +38,7 @@ class BlockBiasEstimator {
     std::span<const float> pixels;
     double share;  // of the samples of all groups
   };
-  static constexpr int kCell = 4;  // pixels; the spread between cells gives the noise
+  static constexpr int kCell = 4;  // pixels; the spread between groups in each cell gives the noise
   static constexpr int kFinestBlock = kCell;
 
   // There must be two groups or more. All groups have the same size. The normal quantile decides

@@ -13,6 +13,8 @@
 namespace exphoton {
 namespace {
 
+constexpr Real kLeastMostOnBump = 4;
+
 NearBuffer BufferFor(std::size_t k, Arena* arena) {
   const std::size_t size = NearBuffer::SizeFor(k);
   return {{arena->AllocateArray<Real>(size), size},
@@ -88,12 +90,16 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
   return found;
 }
 
-// Returns the factor of the photon's power, by the surface at the place of an irradiance.
+// Returns the factor of the photon's power, by the surface at the place of an irradiance. On bumps
+// a single photon that arrives along the surface could outshine all others. It counts for at most
+// half of the k photons.
 Real PhotonMap::WeightOf(const PhotonQuery& query, std::uint32_t i) const {
   Real weight = 1;
   if (query.isCoated) weight = CoatTransmission(AbsDot(Direction(i), query.n));
-  if (query.normals.HasBumps())
-    weight *= CosineRatio(Direction(i), query.normals.bumped, query.normals.smooth);
+  if (query.normals.HasBumps()) {
+    const Real most = std::max(kLeastMostOnBump, Real(query.k) / 2);
+    weight *= std::min(CosineRatio(Direction(i), query.normals.bumped, query.normals.smooth), most);
+  }
   return weight;
 }
 

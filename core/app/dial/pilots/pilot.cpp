@@ -41,9 +41,9 @@ double GivenNumber(const RenderSetup& setup, const std::string& name) {
   return given && !given->numbers.empty() ? given->numbers.front() : 0;
 }
 
-// The bias of a gather is about proportional to the share of the photons that an estimate uses. In
-// the scenes of docs/decisions/0050-bias-certificate.md it is up to 4 times this share, as a mean
-// over blocks of pixels. Bias inside blocks is not known.
+// The bias of gathers in single pixels is about proportional to the radius of density estimates, so
+// to the root of the share of the photons that an estimate uses. This is right to a factor of 2 in
+// five scenes (docs/decisions/0112-guess-of-the-bias-of-photons.md).
 double GuessedBias(double usedPhotons, double indirectPhotons) {
   constexpr double kOfRoot = .5, kUsedByDefault = 50;
   const double used = usedPhotons > 0 ? usedPhotons : kUsedByDefault;

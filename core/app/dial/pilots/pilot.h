@@ -56,7 +56,7 @@ struct PilotPicture {
   double gatherRays = 0;                   // of the whole picture
   DialSettings settings;                   // the request's, with the photons of the scene
   bool hasBias = false;                    // whether the integrator can estimate it
-  double guessedBias = 0;                  // of the scene's photons, cautiously; relative
+  double guessedBias = 0;                  // of the scene's photons, to a factor of 2
   std::optional<Certificate> certificate;  // for the blocks that certify the least bias
   std::vector<std::string> messages;       // of the render, as they would be printed
 };

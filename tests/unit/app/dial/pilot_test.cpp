@@ -21,8 +21,7 @@ class PilotTest : public testing::Test {
         R"("exphotonmap" "integer indirectphotons" 5000 "integer directphotons" 5000
            "integer finalgathersamples" 4 "bool sharedgather" )";
     streams_["room.pbrt"] =
-        TestHeader(integrator + (isShared ? R"("true")" : R"("false")"), 40, 40, 4) +
-        FurnaceWorld(1, R"("matte" "color Kd" [ .5 .5 .5 ])");
+        TestHeader(integrator + (isShared ? R"("true")" : R"("false")"), 40, 40, 4) + world_;
     RenderCommand command;
     command.scenes = {"room.pbrt"};
     command.threadCount = 1;
@@ -34,6 +33,7 @@ class PilotTest : public testing::Test {
 
   FileSource::Streams streams_;
   Log log_;
+  std::string world_ = FurnaceWorld(1, R"("matte" "color Kd" [ .5 .5 .5 ])");
 };
 
 TEST_F(PilotTest, KnowsTheBiasOfSharingWhereGathersAreShared) {
@@ -41,6 +41,44 @@ TEST_F(PilotTest, KnowsTheBiasOfSharingWhereGathersAreShared) {
   request.integrator = "exphotonmap";
   EXPECT_GT(Renderer(true)->Render(request).sharing.standardError, 0);
   EXPECT_EQ(Renderer(false)->Render(request).sharing.standardError, 0);
+}
+
+// A rough pilot has a tenth of the photons, and estimates use a tenth of 50.
+TEST_F(PilotTest, GuessesTheBiasOfTheScenesPhotons) {
+  PilotRequest request;
+  request.integrator = "exphotonmap";
+  for (const bool isRough : {false, true}) {
+    request.isRough = isRough;
+    const double guess = Renderer(true)->Render(request).guessedBias;
+    EXPECT_NEAR(guess, .5 * std::sqrt(50 / 5000.), .002) << isRough;
+  }
+}
+
+// At 2 %, a guess of 5 % asks for four times the photons, unless these are caustic photons too.
+TEST_F(PilotTest, GuessesAskForNoCausticPhotons) {
+  world_ = R"(WorldBegin
+LightSource "point" "point from" [0 .8 0]
+Material "matte"
+Shape "sphere" "float radius" [1]
+Material "mirror"
+Shape "sphere" "float radius" [.3]
+WorldEnd
+)";
+  const auto photonsWith = [&](const char* causticPhotons, bool isTimed) {
+    LoadOptions load;
+    load.parameters.push_back({"SurfaceIntegrator", "causticphotons", causticPhotons});
+    const auto renderer = Renderer(true, load);
+    Wish wish;
+    wish.error = .02;
+    wish.isTimed = isTimed;
+    Explorer explorer(renderer.get(), "exphotonmap", 0, wish);
+    explorer.Begin();
+    EXPECT_EQ(explorer.Result().reason, "");
+    return explorer.Result().price.photons;
+  };
+  EXPECT_GT(photonsWith("0", false), 1);
+  EXPECT_LE(photonsWith("0", true), 1);
+  EXPECT_LE(photonsWith("1000", false), 1);
 }
 
 // A rough pilot has a quarter of the resolution. The window contains no corner of its pixels.
@@ -118,6 +156,7 @@ TEST_F(PilotTest, PairsForOmissionsCountWithTheLikelyPrice) {
   const auto [rough, likely] = RoughAndLikely(renderer.get(), .0001);
   EXPECT_TRUE(likely.reason.empty()) << likely.reason;
   EXPECT_LT(likely.price.seconds, rough.price.seconds);
+  // Other photons would have another noise.
   EXPECT_EQ(likely.price.photons, rough.price.photons);
   EXPECT_NEAR(rough.price.samples / likely.price.samples, std::sqrt(20), .05);
 }

@@ -80,30 +80,32 @@ TEST(PriceModel, TakesFewerPhotonsWhereTheBiasAllowsIt) {
 // Four times the photons have half of the guessed bias. Bias that is known falls with the photons.
 TEST(PriceModel, TakesMorePhotonsForAGuess) {
   PriceModel model;
-  model.camera = .01, model.maps = 1, model.sample = .2, model.hasPhotons = true;
-  model.guessedBias = .05;
+  model.camera = .01, model.maps = 1, model.sample = 1, model.hasPhotons = true;
+  model.guessedBias = .04;
   const auto price = PriceOf(model, {.04});
   ASSERT_TRUE(price);
-  EXPECT_EQ(price->photons, 4);   // the bias is 2.5 %, and 3.5 % with half of these
-  EXPECT_EQ(price->samples, 11);  // .01 / (.0016 - .000625)
+  EXPECT_EQ(price->photons, 4);  // the bias is 2 %, and 2.8 % with half of these
+  EXPECT_EQ(price->samples, 9);  // .01 / (.0016 - .0004)
   model.bias = .05;
   EXPECT_EQ(PriceOf(model, {.04})->photons, 4);
   model.bias = .2;  // 4 times the photons leave 5 %
   EXPECT_EQ(PriceOf(model, {.04})->photons, 8);
 }
 
-// A guess may be wrong by much, so it asks for 16 times the photons at most.
-TEST(PriceModel, TakesNoMoreThanSixteenTimesThePhotonsForAGuess) {
+// A guess may be wrong by much, so it counts as the error at most, and no further photons follow.
+TEST(PriceModel, TakesNoMoreThanFourTimesThePhotonsForAGuess) {
   PriceModel model;
   model.camera = .01, model.maps = .001, model.sample = 1, model.hasPhotons = true;
   model.guessedBias = 10;
   const auto price = PriceOf(model, {.04});
   ASSERT_TRUE(price);
-  EXPECT_EQ(price->photons, 16);
+  EXPECT_EQ(price->photons, 4);
   model.maps = 1000;
-  EXPECT_EQ(PriceOf(model, {.04})->photons, 8);  // the bias counts as .04 sqrt(16 / 8) / 2
+  EXPECT_EQ(PriceOf(model, {.04})->photons, 2);  // the bias counts as .04 / sqrt(2)
+  model.mostForGuess = 1;
+  EXPECT_EQ(PriceOf(model, {.04})->photons, 1);
+  EXPECT_EQ(PriceOf(model, {.04})->samples, 9);  // the bias counts as .02
   model.hasPhotons = false;
-  ASSERT_TRUE(PriceOf(model, {.04}));
   EXPECT_EQ(PriceOf(model, {.04})->samples, 7);  // .01 / .0016
 }
 

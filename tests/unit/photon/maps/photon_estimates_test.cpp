@@ -198,9 +198,9 @@ double OwnDisk2(const PhotonMap& map, const Point3& p, int k, double most2) {
 
 TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
   const ShadingNormals bump{Normal3(0, 0, 1), Normal3(Real(.6), 0, Real(.8))};
+  using Case = std::pair<bool, ShadingNormals>;
   for (const auto& [isCoated, normals] :
-       {std::pair(false, ShadingNormals()), std::pair(true, ShadingNormals()),
-        std::pair(false, bump)}) {
+       {Case(false, {}), Case(true, {}), Case(false, bump), Case(true, bump)}) {
     for (const int k : {30, 1000}) {
       PhotonSettings settings;
       settings.nUsed = k;
@@ -215,12 +215,11 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
             const double disk2 = OwnDisk2(maps.Map(PhotonKind(m)), photon.p, k, estimate.radius2);
             if (distance2 > disk2) continue;
             largest2 = std::max(largest2, disk2);
-            const double x = 1 - std::abs(double(photon.wi.z)) / 2;
-            const double onBump = std::abs(.6 * double(photon.wi.x) + .8 * double(photon.wi.z)) /
-                                  std::abs(double(photon.wi.z));
-            const double passed = isCoated             ? (1 - std::pow(x, 5)) * 28 / 23
-                                  : normals.HasBumps() ? std::min(onBump, 100.)
-                                                       : 1;
+            const double onFlat = std::abs(double(photon.wi.z));
+            const double onBump = std::abs(.6 * double(photon.wi.x) + .8 * double(photon.wi.z));
+            const double x = 1 - onFlat / 2;
+            double passed = isCoated ? (1 - std::pow(x, 5)) * 28 / 23 : 1;
+            if (normals.HasBumps()) passed *= std::min(onBump / onFlat, std::max(k / 2., 4.));
             for (int c = 0; c < 3; ++c) part[c] += passed * double(photon.alpha[c]) / disk2;
           }
           for (int c = 0; c < 3; ++c) {
