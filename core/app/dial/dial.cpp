@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/app/analysis/numbers.h"
 #include "core/app/dial/exploration.h"
@@ -239,6 +240,18 @@ std::optional<std::string> MultiplyPhotons(RenderCommand* command) {
                                : Format("%.3g times the photons of the scene", settings.photons);
 }
 
+Wish WishOf(const RenderCommand& command, bool isForOneIntegrator,
+            std::function<std::vector<OmittedEffect>(Candidate*)> findOmissions) {
+  Wish wish;
+  wish.error = *command.accuracy;
+  wish.keepsPhotons = command.keepsSettings;
+  wish.isTimed = command.timeLimit.has_value();
+  wish.mayMissLight = isForOneIntegrator;
+  wish.findOmissions = std::move(findOmissions);
+  wish.givenUp = command.givenUp;
+  return wish;
+}
+
 }  // namespace
 
 // Many groups can stop before the picture is better than wanted, because the noise of pilots is
@@ -273,18 +286,15 @@ std::shared_ptr<PilotRenderer> TurnDial(RenderCommand* turned, const std::string
       command, scene, PilotRenderer::Surroundings{"--accuracy", streams, &log, true, true});
   PilotRenderer& pilots = *renderer;
   const std::vector<std::string> names = NamesOf(command, pilots.SceneIntegrator());
-  const Wish wish{
-      *command.accuracy,
-      command.keepsSettings,
-      command.timeLimit.has_value(),
-      names.size() == 1,
-      [&](Candidate* candidate) { return FindOmissions(command, &pilots, candidate, log); },
-      command.givenUp};
+  const auto findOmissions = [&](Candidate* candidate) {
+    return FindOmissions(command, &pilots, candidate, log);
+  };
+  const Wish wish = WishOf(command, names.size() == 1, findOmissions);
   const std::vector<Candidate> candidates =
       names.size() > 1 ? ExploreAll(&pilots, names, wish)
                        : std::vector{ExploreNamed(&pilots, names.front(), wish)};
   Candidate chosen = CheapestOf(candidates, accuracy);
-  if (!chosen.hasSoughtOmissions) chosen.omitted = FindOmissions(command, &pilots, &chosen, log);
+  if (!chosen.hasSoughtOmissions) chosen.omitted = findOmissions(&chosen);
   turned->load.integrator = chosen.integrator;
   turned->dial =
       DialChoice{.firstSamples = FirstSamples(chosen, command, SecondsLeft(command, begin)),
