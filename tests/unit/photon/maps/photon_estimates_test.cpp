@@ -238,6 +238,27 @@ TEST_F(PhotonEstimates, OfIrradianceAreThoseOfAllMaps) {
   }
 }
 
+// On this bump the cosine is 31 times as large as on the flat surface.
+TEST_F(PhotonEstimates, LimitTheLightOfPhotonsAlongABump) {
+  const ShadingNormals bump{Normal3(0, 0, 1), Normal3(Real(.6), 0, Real(.8))};
+  for (auto& photons : photons_) photons.clear();
+  for (int i = 0; i < 100; ++i)
+    photons_[0].push_back({{Real(i % 10) / 10, Real(i / 10) / 10, 0},
+                           Normalize(Vector3(1, 0, Real(.02))),
+                           Spectrum(1)});
+  for (const auto& [k, most] : {std::pair(8, 4.), std::pair(20, 10.), std::pair(80, 30.8)}) {
+    PhotonSettings settings;
+    settings.nUsed = k;
+    settings.maxDist = 1;
+    const PhotonMapSet maps = MapsOf(settings);
+    const Point3 p{Real(.53), Real(.51), 0};
+    const double flat = double(maps.EstimateIrradiance(p, {0, 0, 1}, &arena_).e.g);
+    const double bumped = double(maps.EstimateIrradiance(p, {0, 0, 1}, &arena_, false, bump).e.g);
+    EXPECT_GT(flat, 0);
+    EXPECT_NEAR(bumped / flat, most, .01 * most) << k;
+  }
+}
+
 TEST_F(PhotonEstimates, CountThePhotonsOfTheirDisks) {
   PhotonSettings settings;
   settings.nUsed = 30;
