@@ -13,7 +13,7 @@
 namespace exphoton {
 namespace {
 
-constexpr Real kLeastMostOnBump = 4;
+constexpr Real kLeastLimitOnBump = 4;  // of a photon's weight
 
 NearBuffer BufferFor(std::size_t k, Arena* arena) {
   const std::size_t size = NearBuffer::SizeFor(k);
@@ -97,8 +97,9 @@ Real PhotonMap::WeightOf(const PhotonQuery& query, std::uint32_t i) const {
   Real weight = 1;
   if (query.isCoated) weight = CoatTransmission(AbsDot(Direction(i), query.n));
   if (query.normals.HasBumps()) {
-    const Real most = std::max(kLeastMostOnBump, Real(query.k) / 2);
-    weight *= std::min(CosineRatio(Direction(i), query.normals.bumped, query.normals.smooth), most);
+    const Real limit = std::max(kLeastLimitOnBump, Real(query.k) / 2);
+    weight *=
+        std::min(CosineRatio(Direction(i), query.normals.bumped, query.normals.smooth), limit);
   }
   return weight;
 }

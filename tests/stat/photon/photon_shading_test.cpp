@@ -138,8 +138,8 @@ std::string CeilingOverFloor(double degrees, bool isBumped) {
   return scene;
 }
 
-// Photons that arrive on the interpolated normal have another power, so these two floors are two
-// ways to the same light.
+// A floor with bumps and one with interpolated normals reflect the same light. Photons store the
+// cosine to an interpolated normal in their power, and radiance photons apply the one to a bump.
 TEST(PhotonShading, GatherRaysSeeTheLightOfBumps) {
   for (const double degrees : {60.0, -30.0}) {
     const auto measure = [&](bool isBumped) {
