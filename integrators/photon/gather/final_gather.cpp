@@ -58,34 +58,40 @@ FinalGather::Rays::Rays(std::size_t most, const Bsdf& bsdf, LiContext& context)
   isAllShared = !bsdf.Has(LobeSet::Glossy);
   brightest_ = reflectance.g > reflectance.r ? 1 : 0;
   if (reflectance.b > reflectance[brightest_]) brightest_ = 2;
-}
-
-Spectrum FinalGather::Rays::OffWhite(const Spectrum& light) const {
-  const Real otherwise = light[brightest_] / reflectance[brightest_];
-  const Real least = Real(1e-4) * reflectance[brightest_];
-  Spectrum result;
+  least_ = Real(1e-4) * reflectance[brightest_];
   for (int c = 0; c < Spectrum::kChannels; ++c)
-    result[c] = reflectance[c] > least ? light[c] / reflectance[c] : otherwise;
-  return result;
+    hasDarkChannel_ = hasDarkChannel_ || !(reflectance[c] > least_);
 }
 
-void FinalGather::Rays::SeparateDiffuse(const ShadingPoint& point, Real scale) {
-  Spectrum& weight = weights[count];
+void FinalGather::Rays::Separate(const Spectrum& weight, const ShadingPoint& point, Real scale) {
   if (isAllShared) {
     white[count] = OffWhite(weight);
-    weight = {};
     return;
   }
   const Spectrum diffuse =
       point.bsdf.f(point.Wo(), directions[count], LobeSet::DiffuseReflection) * scale;
   white[count] = OffWhite(diffuse);
-  weight = Clamp(weight - diffuse, 0, std::numeric_limits<Real>::max());
+  weights[count] = Clamp(weight - diffuse, 0, std::numeric_limits<Real>::max());
+}
+
+Spectrum FinalGather::Rays::OffWhite(const Spectrum& light) const {
+  if (!hasDarkChannel_)
+    return {light.r / reflectance.r, light.g / reflectance.g, light.b / reflectance.b};
+  Spectrum result;
+  for (int c = 0; c < Spectrum::kChannels; ++c) {
+    const int shown = reflectance[c] > least_ ? c : brightest_;
+    result[c] = light[shown] / reflectance[shown];
+  }
+  return result;
 }
 
 const Spectrum* FinalGather::Rays::AllWeights(LiContext& context) const {
   if (!white) return weights;
   Spectrum* all = context.arena.AllocateArray<Spectrum>(count);
-  for (std::size_t i = 0; i < count; ++i) all[i] = weights[i] + white[i] * reflectance;
+  for (std::size_t i = 0; i < count; ++i) {
+    all[i] = white[i] * reflectance;
+    if (!isAllShared) all[i] += weights[i];
+  }
   return all;
 }
 
@@ -105,10 +111,7 @@ FinalGather::Rays FinalGather::DrawRays(const ShadingPoint& point, LiContext& co
         SurvivalFactor(contribution.Y(), guide.share * photonPdf, AbsDot(w, bsdf.Ns()), &roulette);
     if (!(factor > 0)) return;
     factor /= Real(drawn);
-    rays.directions[rays.count] = w;
-    rays.weights[rays.count] = contribution * factor;
-    if (rays.white) rays.SeparateDiffuse(point, weight * factor);
-    ++rays.count;
+    rays.Add(w, contribution * factor, point, weight * factor);
   };
   const auto squares = context.samples.Array2D(split.directions);
   const bool picksLobe = bsdf.Count(kLobes) > 1;

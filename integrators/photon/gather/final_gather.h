@@ -84,20 +84,31 @@ class FinalGather {
     // and the diffuse reflectance of the surface.
     Spectrum* white = nullptr;
     Spectrum reflectance;
-    bool isAllShared = false;  // all light goes to `white`, and `weights` are 0
+    bool isAllShared = false;  // all light goes to `white`, and `weights` are not set
 
-    // Moves the diffuse part of the weight of ray `count` to `white`. `scale` is the factor on the
-    // lobe's value f.
-    void SeparateDiffuse(const ShadingPoint& point, Real scale);
+    // Adds a ray with the factor on its radiance. If the gather is shared, the diffuse part of the
+    // factor goes to `white`. `scale` is the factor on the value f of a lobe.
+    void Add(const Vector3& w, const Spectrum& weight, const ShadingPoint& point, Real scale) {
+      directions[count] = w;
+      if (white)
+        Separate(weight, point, scale);
+      else
+        weights[count] = weight;
+      ++count;
+    }
     // Returns the weights with the diffuse part, whether the gather is shared or not.
     const Spectrum* AllWeights(LiContext& context) const;
 
    private:
+    // Divides the weight of ray `count` between `white` and `weights`.
+    void Separate(const Spectrum& weight, const ShadingPoint& point, Real scale);
     // Divides light that leaves the surface by its reflectance. A channel without reflectance takes
     // the quotient of the brightest channel, because a white surface would reflect it.
     Spectrum OffWhite(const Spectrum& light) const;
 
     int brightest_ = 0;  // channel of the reflectance
+    Real least_ = 0;     // reflectance, up to which a channel is dark
+    bool hasDarkChannel_ = false;
   };
 
   // Draws the rays of both techniques, and leaves out those that Russian roulette ends.
