@@ -3,10 +3,10 @@
 
 Usage: budget.py PROGRAM WxH REFERENCE_SAMPLES SEEDS SCENE ...
 A scene is a file, or the name of a folder of scenes/, which means its exphotonmap.pbrt. Parameters of
-the integrator may follow, and spp: cornell-caustic:nused=300:spp=8. Each row is one budget, in units of
-1e-4 of relMSE. "measured" is the error of renders with other seeds against guidedpath with
-REFERENCE_SAMPLES samples a pixel. +- is half of a 95 % interval. The program ends with status 1 if a
-difference is larger than its +-.
+the integrator may follow, and --spp and --effects: cornell-caustic:nused=300:spp=8:effects=caustics=off.
+Each row is one budget, in units of 1e-4 of relMSE. "measured" is the error of renders with other seeds
+against guidedpath with REFERENCE_SAMPLES samples a pixel. +- is half of a 95 % interval. The program
+ends with status 1 if a difference is larger than its +-.
 """
 import os
 import re
@@ -28,7 +28,8 @@ def budget(program, scene, size, samples, seeds):
         scene = os.path.join(SCENES, scene, "exphotonmap.pbrt")
     options = []
     for parameter in parameters:
-        options += (["--spp", parameter.removeprefix("spp=")] if parameter.startswith("spp=")
+        name, value = parameter.split("=", 1)
+        options += (["--" + name, value] if name in ("spp", "effects")
                     else ["--set", "SurfaceIntegrator." + parameter])
     text = run([program, "budget", scene, "--resolution", size, "--reference-spp", samples, "--seeds",
                 seeds, "--quiet", *options])
