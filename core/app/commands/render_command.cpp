@@ -250,7 +250,7 @@ bool FileRenderer::BeginsAgain(const PassesResult& result, const StateKeeper& ke
 // Returns a record of the command's settings.
 RunRecord FileRenderer::NewRecord(const RenderSetup& setup, const Statistics& statistics) const {
   RunRecord run(setup, statistics);
-  run.givenUpSeconds = begin_->givenUpWall;
+  run.givenUp = begin_->givenUp, run.givenUpSeconds = begin_->givenUpWall;
   run.commandLine = command_.commandLine;
   run.seed = command_.seed;
   run.footprintSamples = command_.footprintSamples;
@@ -347,11 +347,8 @@ void FileRenderer::Announce(const RunRecord& run, const Picture& picture) {
   WarnOfClamping(picture.report, log_);
   if (!command_.previewFile.empty() && run.isComplete)
     WritePngPicture(command_.previewFile, picture.image, command_.png, log_);
-  std::string seconds = Format("%.2f s", run.renderSeconds);
-  if (run.givenUpSeconds > 0)
-    seconds += Format(", after %.2f s for a picture that was given up", run.givenUpSeconds);
   log_.Notice((run.isComplete ? "wrote \"" : "interrupted; wrote what is finished to \"") +
-              picture.path + "\" (rendered in " + seconds + ")");
+              picture.path + "\" (rendered in " + RenderTimes(run) + ")");
 }
 
 // Rewrites the file with one line per picture so far, so that an interrupted run keeps them.

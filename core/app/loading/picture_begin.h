@@ -23,7 +23,8 @@ struct Begin {
   std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
   double cpu = ProcessCpuSeconds();
   double pilotWall = 0, pilotCpu = 0, loadWall = 0, loadCpu = 0;
-  double givenUpWall = 0, givenUpCpu = 0;  // of attempts after which the picture began again
+  int givenUp = 0;                         // attempts after which the picture began again
+  double givenUpWall = 0, givenUpCpu = 0;  // of them
 
   double Wall() const { return ElapsedSince(wall); }
   double Cpu() const { return ProcessCpuSeconds() - cpu; }
@@ -31,7 +32,10 @@ struct Begin {
   void BeginPilots() { pilotWall -= Wall(), pilotCpu -= Cpu(); }
   void EndPilots() { pilotWall += Wall(), pilotCpu += Cpu(); }
   void BeginAttempt() { attemptWall_ = Wall(), attemptCpu_ = Cpu(); }
-  void GiveUpAttempt() { givenUpWall += Wall() - attemptWall_, givenUpCpu += Cpu() - attemptCpu_; }
+  void GiveUpAttempt() {
+    ++givenUp;
+    givenUpWall += Wall() - attemptWall_, givenUpCpu += Cpu() - attemptCpu_;
+  }
   // Loading again, for more photons, is no part of it.
   void EndLoading() {
     if (loadWall > 0) return;

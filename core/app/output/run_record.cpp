@@ -214,6 +214,13 @@ void RecordPasses(const PassesResult& result, RunRecord* run) {
   run->lastDiskArea = result.lastDiskArea;
 }
 
+std::string RenderTimes(const RunRecord& run) {
+  std::string text = Format("%.2f s", run.renderSeconds);
+  if (run.givenUp > 0)
+    text += Format(", after %.2f s for ", run.givenUpSeconds) + Counted(run.givenUp, "given-up attempt");
+  return text;
+}
+
 std::string StoppingText(const RunRecord& run) {
   std::string text;
   if (run.accuracy)

@@ -33,7 +33,8 @@ struct RunRecord {
   std::uint64_t seed = 0;
   int threads = 1;
   double renderSeconds = 0;                // wall time, without loading the scene
-  double givenUpSeconds = 0;               // wall time of attempts before this picture
+  int givenUp = 0;                         // attempts before this picture
+  double givenUpSeconds = 0;               // their wall time
   double wallSeconds = 0, cpuSeconds = 0;  // from loading the scene to writing the picture
   double peakMemory = 0;                   // bytes
   bool isComplete = true;
@@ -71,6 +72,8 @@ void RecordPasses(const PassesResult& result, RunRecord* run);
 std::string StatisticsTable(const RunRecord& run);
 std::string StatisticsJson(const RunRecord& run);  // one line
 
+// Returns the times of the picture and of the attempts before it.
+std::string RenderTimes(const RunRecord& run);
 // Returns one line: the result of a stopping rule, or the difference between two halves.
 std::string StoppingText(const RunRecord& run);
 

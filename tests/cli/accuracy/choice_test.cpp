@@ -99,7 +99,7 @@ TEST_F(ChoiceTest, IsMadeAgainWhereAPictureIsFarNoisierThanItsPilots) {
     ExpectIn("accuracy 20%: integrator exphotonmap -> path", result.err);
     ExpectIn("the picture of path needs at least ", result.err);
     ExpectIn("accuracy 20%: integrator exphotonmap, ", result.err);
-    ExpectIn(" s for a picture that was given up)", result.err);
+    ExpectIn(" s for 1 given-up attempt)", result.err);
     EXPECT_EQ(result.err.find("which is not the accuracy"), std::string::npos) << result.err;
     pictures[threads[0] - '1'] = Read("lamp.exr");
   }
