@@ -14,7 +14,7 @@ groups='6 integrator photon_integrator photon_pass photon_budget photon_stats
 5 certificate certificate/
 4 files files/
 4 gather gather/
-1 photon maps/photon.h maps/photon_distance.h maps/rest_pose.h maps/signed_power.h
+1 photon maps/photon.h maps/photon_distance.h maps/photon_time.h maps/rest_pose.h maps/signed_power.h
 3 maps maps/
 2 shooting shooting/
 1 settings photon_settings'

@@ -217,7 +217,8 @@ void RecordPasses(const PassesResult& result, RunRecord* run) {
 std::string RenderTimes(const RunRecord& run) {
   std::string text = Format("%.2f s", run.renderSeconds);
   if (run.givenUp > 0)
-    text += Format(", after %.2f s for ", run.givenUpSeconds) + Counted(run.givenUp, "given-up attempt");
+    text += Format(", after %.2f s for ", run.givenUpSeconds) +
+            Counted(run.givenUp, "given-up attempt");
   return text;
 }
 

@@ -35,6 +35,7 @@ void Transfer(PhotonPassResult* pass, std::array<std::uint64_t, kPhotonKindCount
   ForEachKind([&](PhotonKind kind) {
     PhotonBuffer& buffer = (*pass)[kind];
     archive->Values(&(*counts)[std::size_t(kind)], &buffer.paths, &buffer.farthest);
+    archive->Values(&buffer.times.min, &buffer.times.max);
     Transfer(&buffer.isGuided, archive);
   });
   pass->lights.resize(archive->Count(pass->lights.size(), 40));
@@ -135,7 +136,8 @@ PhotonPassResult ReadPhotons(const std::string& path, const PhotonIdentity& iden
     PhotonBuffer& buffer = photons[kind];
     buffer.photons = ReadBlocks(file, kind, counts[std::size_t(kind)]);
     buffer.isSorted = true;
-    if (buffer.photons.Size() > 0 && !(buffer.paths > 0 && std::isfinite(buffer.farthest)))
+    const Real numbers = buffer.farthest + buffer.times.min + buffer.times.max;
+    if (buffer.photons.Size() > 0 && !(buffer.paths > 0 && std::isfinite(numbers)))
       file.FailAsDamaged("its number of paths does not fit");
   });
   return photons;

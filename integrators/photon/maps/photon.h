@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "core/math/bounds.h"
 #include "core/math/spectrum.h"
 #include "core/spatial/block_store.h"
 #include "integrators/photon/maps/photon_distance.h"
@@ -59,8 +60,11 @@ struct PhotonRecord {
 
   PhotonRecord() = default;
   explicit PhotonRecord(const Photon& photon)
+      : PhotonRecord(photon, EncodeDistance(photon.distance)) {}
+  // `payload` takes the place of the distance.
+  PhotonRecord(const Photon& photon, std::uint8_t payload)
       : p(photon.p),
-        direction(EncodeOctahedral(photon.wi, EncodeDistance(photon.distance))),
+        direction(EncodeOctahedral(photon.wi, payload)),
         power(photon.alpha, photon.hasNegativeSign) {}
 };
 
@@ -89,6 +93,8 @@ struct PhotonBuffer {
   std::int64_t paths = 0;
   bool isGuided = false;      // photons are denser and lighter where a guide sent them
   Real farthest = Real(1e9);  // scene units; Photon::distance is a fraction of this
+  // If it is not empty, photons keep their times in this exposure (photon_time.h), not distances.
+  Interval times{0, 0};
 
   PhotonBuffer() = default;
   PhotonBuffer(std::span<const Photon> given, std::int64_t pathCount) : paths(pathCount) {

@@ -28,7 +28,8 @@ PhotonMap::PhotonMap(PointTree<PhotonBlock> tree, const PhotonBuffer& buffer, Th
       spacing2_(MeasureSpacing2(tree_.View(), threads)),
       paths_(buffer.paths),
       isGuided_(buffer.isGuided),
-      farthest_(buffer.farthest) {
+      farthest_(buffer.farthest),
+      exposure_(buffer.times) {
   if (IsEmpty()) return;
   const Bounds3 bounds = tree_.Bounds();
   minRadius_ = 4 * kMachineEpsilon * MaxComponent(Max(Abs(bounds.min), Abs(bounds.max)));

@@ -12,6 +12,7 @@
 #include "core/base/arena.h"
 #include "core/spatial/nearest_search.h"
 #include "integrators/photon/maps/photon.h"
+#include "integrators/photon/maps/photon_time.h"
 
 namespace exphoton {
 
@@ -39,6 +40,7 @@ struct PhotonNeighbourhood {
   std::span<const Real> distance2;  // one per photon
   Real radius2 = 0;                 // of the estimation disk; > 0 if there are photons
   // With a diskArea below 1, photons beyond the disk are in the list too.
+  Real exposure = 1;  // the part of the exposure in which the photons arrived (timed_search.h)
 };
 
 class PhotonMap {
@@ -68,10 +70,18 @@ class PhotonMap {
   std::uint32_t DirectionCode(std::uint32_t i) const {                     // as EncodeOctahedral
     return tree_.BlockOf(i).direction[tree_.Lane(i)];
   }
+  // Returns whether photons know when they arrived.
+  bool HasTimes() const { return exposure_.min < exposure_.max; }
+  Interval Exposure() const { return exposure_; }
+  // Returns the time of the photon, in [0,1] of the exposure. The map must have times.
+  Real PartOfExposure(std::uint32_t i) const {
+    return DecodePhotonTime(OctahedralPayload(DirectionCode(i)));
+  }
   // Returns the apparent origin of the photon: the point along its direction at its path length
-  // since the emission or the last non-specular scattering. The distance is within 4.5 %.
+  // since the emission or the last non-specular scattering. The distance is within 4.5 %. In a map
+  // with times the origin is far away.
   Point3 Origin(std::uint32_t i) const {
-    const Real part = DecodeDistance(OctahedralPayload(DirectionCode(i)));
+    const Real part = HasTimes() ? 1 : DecodeDistance(OctahedralPayload(DirectionCode(i)));
     return Position(i) + Direction(i) * (farthest_ * part);
   }
   Spectrum Alpha(std::uint32_t i) const { return tree_.BlockOf(i).Alpha(tree_.Lane(i)); }
@@ -131,7 +141,8 @@ class PhotonMap {
   std::int64_t paths_ = 0;
   bool isGuided_ = false;
   Real farthest_ = 0;
-  Real minRadius_ = 0;  // rounding error of the positions
+  Interval exposure_{0, 0};  // PhotonBuffer::times
+  Real minRadius_ = 0;       // rounding error of the positions
 };
 
 }  // namespace exphoton

@@ -7,6 +7,7 @@
 #include "core/transport/shading_normal.h"
 #include "integrators/photon/maps/density_kernel.h"
 #include "integrators/photon/maps/rest_pose.h"
+#include "integrators/photon/maps/timed_search.h"
 
 namespace exphoton {
 namespace {
@@ -97,9 +98,14 @@ PhotonNeighbourhood PhotonMapSet::Around(const Part& part, const ShadingPoint& p
   const Normal3 n = FaceForward(point.surface.ng, point.Wo());
   const bool isOneSided = !point.bsdf.Has(part.lobes & LobeSet::NonSpecularTransmission);
   const RestPose rest(point.surface);
-  return Map(part.kind).Find({rest.Point(point.surface.p), rest.Normal(n), nUsed_,
-                              MaxDistance(part.kind), isOneSided, false, diskArea_},
-                             arena);
+  const PhotonQuery query{rest.Point(point.surface.p),
+                          rest.Normal(n),
+                          nUsed_,
+                          MaxDistance(part.kind),
+                          isOneSided,
+                          false,
+                          diskArea_};
+  return FindAt(point.surface.time, Map(part.kind), query, arena);
 }
 
 Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
@@ -136,11 +142,12 @@ Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
       (Dot(wi, n) > 0 ? front : back).Add(flux, sign);
   }
   const auto scattered = [&](Spectrum SignedSum::*sum) {
-    if (!isDiffuse) return glossy.*sum / Real(map.Paths());
+    const Real paths = Real(map.Paths()) * around.exposure;
+    if (!isDiffuse) return glossy.*sum / paths;
     Spectrum both = front.*sum * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
     if (!isOneSided)
       both += back.*sum * bsdf.Rho(lobes & LobeSet::NonSpecularTransmission) * kInvPi;
-    return both / Real(map.Paths());
+    return both / paths;
   };
   if (signedRadiance) *signedRadiance = scattered(&SignedSum::withSigns);
   return scattered(&SignedSum::plain);

@@ -244,8 +244,10 @@ void PhotonTracer::Path::Store(PhotonKind kind, const ShadingPoint& point) {
   const Point3 p = rest.Point(surface.p);
   const Real onSmooth = CosineRatio(point.Wo(), point.smooth, surface.ng);
   const Spectrum power = now_.alpha * (onSmooth * rest.PowerScale(surface.ng));
-  chunk_->photons[std::size_t(kind)].emplace_back(Photon{
-      p, rest.Direction(point.Wo()), power, now_.distance / tracer_.farthest_, HasNegativeSign()});
+  const Photon photon{p, rest.Direction(point.Wo()), power, now_.distance / tracer_.farthest_,
+                      HasNegativeSign()};
+  chunk_->photons[std::size_t(kind)].emplace_back(photon,
+                                                  tracer_.PayloadOf(kind, photon, now_.ray.time));
   ++stored_;
   caustic_ += kind == PhotonKind::Caustic;
   hasStored_[std::size_t(kind)] = true;

@@ -9,6 +9,7 @@
 #include "core/base/log.h"
 #include "core/base/parallel.h"
 #include "core/base/progress.h"
+#include "integrators/photon/maps/photon_time.h"
 #include "integrators/photon/shooting/photon_path.h"
 #include "integrators/photon/shooting/tracer_pass.h"
 
@@ -100,6 +101,11 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
 void PhotonTracer::FixTime(Real u) {
   const Real time = std::clamp(Lerp(u, exposure_.min, exposure_.max), exposure_.min, exposure_.max);
   exposure_ = {time, time};
+}
+
+std::uint8_t PhotonTracer::PayloadOf(PhotonKind kind, const Photon& photon, Real time) const {
+  if (!KeepsTimes(kind)) return EncodeDistance(photon.distance);
+  return EncodePhotonTime((time - exposure_.min) / (exposure_.max - exposure_.min));
 }
 
 void PhotonTracer::TraceChunk(std::int64_t firstPath, const PhotonBatch& batch, Worker* worker,

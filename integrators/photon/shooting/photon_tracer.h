@@ -117,6 +117,12 @@ class PhotonTracer {
   // Lets all paths start at one point of the exposure, in [0,1).
   void FixTime(Real u);
 
+  // Returns whether the photons of this map keep their times instead of their distances. Caustics
+  // may move over a surface, and gathers do not follow their photons to their origins.
+  bool KeepsTimes(PhotonKind kind) const {
+    return kind == PhotonKind::Caustic && exposure_.min < exposure_.max;
+  }
+
   std::size_t LightCount() const { return scene_.Lights().size(); }
 
   static constexpr std::int64_t kFruitlessPaths = std::int64_t(1) << 19;
@@ -138,6 +144,9 @@ class PhotonTracer {
   // full the fullest open map is, the larger of its share of the photon target and its share of
   // maxphotonpaths.
   static std::int64_t NextBatch(std::int64_t last, std::int64_t paths, double filled);
+
+  // Returns the eight bits that a photon keeps beside its direction.
+  std::uint8_t PayloadOf(PhotonKind kind, const Photon& photon, Real time) const;
 
   const Scene& scene_;
   PhotonSettings settings_;

@@ -28,7 +28,10 @@ class PhotonTracer::Pass {
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) batch_.open[m] = targets.counts[m] > 0;
     batch_.radianceFraction = targets.radianceFraction;
     result_.lights.resize(tracer.scene_.Lights().size());
-    for (PhotonBuffer& buffer : result_.buffers) buffer.farthest = tracer.farthest_;
+    for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
+      result_.buffers[m].farthest = tracer.farthest_;
+      if (tracer.KeepsTimes(PhotonKind(m))) result_.buffers[m].times = tracer.exposure_;
+    }
   }
 
   PhotonPassResult Run(ChunkMemo* memo);

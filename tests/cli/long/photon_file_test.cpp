@@ -88,6 +88,20 @@ TEST_F(PhotonFile, IsMadeWithTheSeedAndTheSettingsOfThePhotons) {
   ExpectRefused(1, "indirectphotons is 700 there, 900 here", {"--seed", "5"});
 }
 
+TEST_F(PhotonFile, KeepsTheTimesOfMovingCaustics) {
+  Write("scene.pbrt",
+        "LookAt 0 2.5 -5.5  0 .7 0  0 1 0\nCamera \"perspective\" \"float fov\" 45\n"
+        "Film \"image\" \"integer xresolution\" 12 \"integer yresolution\" 8\n"
+        "SurfaceIntegrator \"exphotonmap\" \"integer indirectphotons\" 900 "
+        "\"integer causticphotons\" 9000 \"integer finalgathersamples\" 8\n"
+        "WorldBegin\nLightSource \"point\" \"point from\" [1.2 3.9 -.5] \"color I\" [9 9 9]\n"
+        "Rotate -90 1 0 0 Shape \"disk\" \"float radius\" 9\n"
+        "ActiveTransform EndTime Translate 1.5 0 0 ActiveTransform All Translate 0 0 .8 "
+        "Material \"glass\" Shape \"sphere\" \"float radius\" .8\nWorldEnd\n");
+  Shoot();
+  ExpectSamePicture();
+}
+
 TEST_F(PhotonFile, OfAnotherWorldIsRefused) {
   Shoot();
   Write("scene.pbrt", Scene("0 0 -3", "Translate 0 .1 0 "));

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check estimates at a time of the exposure: which photons count, and that the light is
+// the light of that time.
+#include "integrators/photon/maps/timed_search.h"
+
+#include <gtest/gtest.h>
+
+#include "core/math/sampling/random.h"
+
+namespace exphoton {
+namespace {
+
+constexpr int kPhotons = 20000;  // on a square of 2 x 2
+
+// Returns photons whose times are Time(u) of the exposure, for uniform u in [0,1).
+template <class Time>
+PhotonMap MapWith(const Interval& exposure, const Time& time) {
+  RandomStream random(1);
+  PhotonBuffer buffer;
+  buffer.paths = 1;
+  buffer.times = exposure;
+  for (int i = 0; i < kPhotons; ++i) {
+    const Point3 p{2 * random.Uniform() - 1, 2 * random.Uniform() - 1, 0};
+    const PhotonRecord record({p, {0, 0, 1}, Spectrum(1)},
+                              EncodePhotonTime(time(random.Uniform())));
+    buffer.photons.Append({&record, 1});
+  }
+  ThreadPool threads(1);
+  return PhotonMap(std::move(buffer), threads);
+}
+
+const PhotonQuery kQuery{{0, 0, 0}, {0, 0, 1}, 50, 1, true};
+
+// Returns the density of light at a time, relative to its mean over the exposure.
+double LightAt(Real time, const PhotonMap& map) {
+  Arena arena;
+  const PhotonNeighbourhood around = FindAt(time, map, kQuery, &arena);
+  const double area = double(kPi * around.radius2);
+  return double(around.photons.size()) / (area * double(around.exposure)) / (kPhotons / 4.);
+}
+
+TEST(TimedSearch, CountsAllPhotonsOfEvenLight) {
+  const PhotonMap map = MapWith({0, 1}, [](Real u) { return u; });
+  Arena arena;
+  const PhotonNeighbourhood all = map.Find(kQuery, &arena);
+  for (const Real time : {Real(0), Real(.3), Real(1)}) {
+    const PhotonNeighbourhood found = FindAt(time, map, kQuery, &arena);
+    EXPECT_EQ(found.exposure, 1);
+    EXPECT_EQ(found.radius2, all.radius2);
+    EXPECT_EQ(found.photons.size(), all.photons.size());
+  }
+}
+
+TEST(TimedSearch, SeesLightWhenItIsThere) {
+  const PhotonMap map = MapWith({0, 1}, [](Real u) { return u / 2; });
+  for (const Real time : {Real(0), Real(.1), Real(.25), Real(.4)})
+    EXPECT_NEAR(LightAt(time, map), 2, .5) << time;  // 100 of 400 photons: a standard error of .2
+  for (const Real time : {Real(.6), Real(.8), Real(1)}) EXPECT_EQ(LightAt(time, map), 0) << time;
+}
+
+TEST(TimedSearch, KnowsTheExposure) {
+  const PhotonMap map = MapWith({3, 5}, [](Real u) { return Real(.75) + u / 4; });
+  EXPECT_EQ(LightAt(3, map), 0);
+  EXPECT_EQ(LightAt(4, map), 0);
+  EXPECT_NEAR(LightAt(Real(4.8), map), 4, .8);
+  EXPECT_NEAR(LightAt(5, map), 4, .8);
+}
+
+// The window is an eighth of the exposure, so the light at the end of a short flash is too dark.
+TEST(TimedSearch, BlursAShortFlashOverAnEighthOfTheExposure) {
+  const PhotonMap map = MapWith({0, 1}, [](Real u) { return Real(.5) + u / 64; });
+  EXPECT_NEAR(LightAt(Real(.51), map), 8, 1.6);
+  EXPECT_EQ(LightAt(Real(.4), map), 0);
+}
+
+TEST(TimedSearch, WithoutTimesFindsWhatTheMapFinds) {
+  const PhotonMap map = MapWith({0, 0}, [](Real u) { return u / 2; });
+  EXPECT_FALSE(map.HasTimes());
+  Arena arena;
+  EXPECT_EQ(FindAt(1, map, kQuery, &arena).photons.size(), map.Find(kQuery, &arena).photons.size());
+}
+
+// Such photons lie along their directions, and far away, because their distances are not known.
+TEST(TimedSearch, OriginsOfPhotonsWithTimesAreFarAway) {
+  const PhotonMap map = MapWith({0, 1}, [](Real u) { return u; });
+  const Vector3 way = map.Origin(0) - map.Position(0);
+  EXPECT_GT(Length(way), 1e6);
+  EXPECT_NEAR(double(way.z / Length(way)), 1, 1e-5);
+}
+
+}  // namespace
+}  // namespace exphoton
