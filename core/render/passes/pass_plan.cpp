@@ -108,11 +108,11 @@ std::int64_t PassPlan::LaterGoal(const State& state) const {
 
 PassPlan::Step PassPlan::NextForAccuracy(const State& state) const {
   std::int64_t size = limits_.firstSamples;
+  // Each look at the picture costs confidence, and small passes say little about the bias of shared
+  // gathers, so passes are not small.
+  const double least = std::max(double(state.samples) / 4, double(limits_.firstSamples));
   if (groups_ > 1) {
     const double missing = state.needed.value_or(0) - double(state.samples);
-    // Each look at the picture costs confidence, and small passes say little about the bias of
-    // shared gathers, so groups are not small.
-    const double least = std::max(double(state.samples) / 4, double(limits_.firstSamples));
     size = PowerOfTwoUpTo(std::clamp(missing * kRounding, least, double(state.samples)));
     size = std::min(size, std::max(LargestPowerOfTwoIn(state.samples), limits_.firstSamples));
   }
@@ -125,7 +125,10 @@ PassPlan::Step PassPlan::NextForAccuracy(const State& state) const {
   const bool hasDearPhotons =
       !state.keepsPhotons && limits_.photonSamples > kDearPhotons * double(size);
   const std::int64_t most = 2 * firstSamples_ - groupSamples_;
-  if (!hasDearPhotons || groups_ < 2 || most < 1) return {true, size};
+  // Where photons must be shot anew for each group, a pass that is large enough goes into the last
+  // one. Otherwise passes would stay as small as the first ones, however many samples are needed.
+  const bool fitsLastGroup = double(most) >= std::min(double(size), least);
+  if (!hasDearPhotons || groups_ < 2 || most < 1 || !fitsLastGroup) return {true, size};
   return {false, std::min(size, most)};
 }
 

@@ -56,7 +56,8 @@ class PassPlan {
     // If positive, the first two passes are groups with this number of samples, and later ones
     // follow State::needed. A later pass is a group as well, unless its photons would cost more
     // than `photonSamples` says: the price of the photons of a group in samples per pixel. The last
-    // group then takes it, but no group becomes more than twice as large as the first one.
+    // group then takes it, but no group becomes more than twice as large as the first one, and no
+    // pass is made smaller than a quarter of the samples so far for this.
     std::int64_t firstSamples = 0;
     double photonSamples = 0;
     bool sharesGathers = false;  // between pixels, for which small groups are bad

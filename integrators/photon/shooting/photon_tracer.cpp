@@ -82,6 +82,7 @@ PhotonTracer::PhotonTracer(const Scene& scene, const PhotonSettings& settings, s
       settings_(settings),
       seed_(seed),
       exposure_(scene.Exposure()),
+      shapesMove_(scene.Primitives().MovesWithin(exposure_)),
       targeting_(std::move(targeting)),
       media_(std::move(media)),
       lights_(MakeEmissionLightSampler(scene.Lights(), settings.lightSelection,

@@ -117,10 +117,10 @@ class PhotonTracer {
   // Lets all paths start at one point of the exposure, in [0,1).
   void FixTime(Real u);
 
-  // Returns whether the photons of this map keep their times instead of their distances. Caustics
-  // may move over a surface, and gathers do not follow their photons to their origins.
+  // Returns whether the photons of this map keep their times instead of their distances. If shapes
+  // move, so may caustics, and gathers do not follow their photons to their origins.
   bool KeepsTimes(PhotonKind kind) const {
-    return kind == PhotonKind::Caustic && exposure_.min < exposure_.max;
+    return kind == PhotonKind::Caustic && shapesMove_ && exposure_.min < exposure_.max;
   }
 
   std::size_t LightCount() const { return scene_.Lights().size(); }
@@ -152,6 +152,7 @@ class PhotonTracer {
   PhotonSettings settings_;
   std::uint64_t seed_;
   Interval exposure_;  // times at which paths start
+  bool shapesMove_;    // during the exposure
   DistantLightTargeting targeting_;
   MediaPhotons media_;
   std::unique_ptr<const FixedLightSampler> lights_;

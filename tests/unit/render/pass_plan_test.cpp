@@ -112,6 +112,27 @@ TEST(PassPlan, DearPhotonsServeMorePassesForAnAccuracy) {
   }
 }
 
+// A render that needs far more samples than its first groups have reaches them in few passes: dear
+// photons once held each pass at the size of the first one.
+TEST(PassPlan, DearPhotonsDoNotKeepPassesSmall) {
+  for (const double missing : {1e9, 1.}) {
+    PassPlan plan({.targetError = {},
+                   .timeLimit = {},
+                   .maxSamples = 1024,
+                   .firstSamples = 4,
+                   .photonSamples = 100});
+    std::int64_t samples = 0;
+    int passes = 0;
+    for (; samples < 1024; ++passes) {
+      const PassPlan::Step step = plan.Next(
+          {.samples = samples, .noise = {}, .enough = {}, .needed = double(samples) + missing});
+      plan.Take(step);
+      samples += step.size;
+    }
+    EXPECT_LE(passes, missing > 1 ? 12 : 30);
+  }
+}
+
 TEST(PassPlan, PhotonsThatAreKeptAreNotDear) {
   PassPlan plan({.targetError = {},
                  .timeLimit = {},
