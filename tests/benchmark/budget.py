@@ -28,7 +28,7 @@ def budget(program, scene, size, samples, seeds):
         scene = os.path.join(SCENES, scene, "exphotonmap.pbrt")
     options = []
     for parameter in parameters:
-        name, value = parameter.split("=", 1)
+        name, _, value = parameter.partition("=")
         options += (["--" + name, value] if name in ("spp", "effects")
                     else ["--set", "SurfaceIntegrator." + parameter])
     text = run([program, "budget", scene, "--resolution", size, "--reference-spp", samples, "--seeds",

@@ -24,7 +24,7 @@ struct Begin {
   double cpu = ProcessCpuSeconds();
   double pilotWall = 0, pilotCpu = 0, loadWall = 0, loadCpu = 0;
   int givenUp = 0;                         // attempts after which the picture began again
-  double givenUpWall = 0, givenUpCpu = 0;  // of them
+  double givenUpWall = 0, givenUpCpu = 0;  // seconds of these attempts
 
   double Wall() const { return ElapsedSince(wall); }
   double Cpu() const { return ProcessCpuSeconds() - cpu; }

@@ -68,9 +68,10 @@ bool CausticCorrection::FindsLight(const PhotonGuide& guide) const {
     arena.Reset();
     LiContext context{scene_, samples, arena, rays, HashKey({kProbeStream, i})};
     RandomStream random = context.Stream(kProbeStream);
-    const Interval exposure = scene_.Exposure();
-    const Real time = exposure.min + random.Uniform() * (exposure.max - exposure.min);
     const auto photon = std::uint32_t(i * map.Size() / count);
+    const Interval exposure = scene_.Exposure();
+    const Real part = map.HasTimes() ? map.PartOfExposure(photon) : random.Uniform();
+    const Real time = exposure.min + part * (exposure.max - exposure.min);
     const auto point = PointOf(map, photon, scene_, time, &arena);
     if (!point) continue;
     const Real mapped = maps_.Radiance(PhotonKind::Caustic, *point, &arena).Y();

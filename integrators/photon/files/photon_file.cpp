@@ -136,8 +136,9 @@ PhotonPassResult ReadPhotons(const std::string& path, const PhotonIdentity& iden
     PhotonBuffer& buffer = photons[kind];
     buffer.photons = ReadBlocks(file, kind, counts[std::size_t(kind)]);
     buffer.isSorted = true;
-    const Real numbers = buffer.farthest + buffer.times.min + buffer.times.max;
-    if (buffer.photons.Size() > 0 && !(buffer.paths > 0 && std::isfinite(numbers)))
+    if (!std::isfinite(buffer.times.min + buffer.times.max))
+      file.FailAsDamaged("the exposure of its photons is not finite");
+    if (buffer.photons.Size() > 0 && !(buffer.paths > 0 && std::isfinite(buffer.farthest)))
       file.FailAsDamaged("its number of paths does not fit");
   });
   return photons;

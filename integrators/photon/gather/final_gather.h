@@ -107,7 +107,7 @@ class FinalGather {
     Spectrum OffWhite(const Spectrum& light) const;
 
     int brightest_ = 0;  // channel of the reflectance
-    Real least_ = 0;     // reflectance, up to which a channel is dark
+    Real least_ = 0;     // largest reflectance of a dark channel
     bool hasDarkChannel_ = false;
   };
 

@@ -54,6 +54,7 @@ PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& setti
     : nUsed_(settings.nUsed),
       ownWeight_(WeightOfOwnPhoton(settings, context.diskArea)),
       diskArea_(context.diskArea),
+      widest_(settings.maxDist ? Real(1) : kInfinity),
       kernel_(settings.kernel) {
   context.progress.Begin("Building photon maps", kPhotonKindCount);
   auto trees = MakePhotonTrees(result->buffers, context.threads);
@@ -105,7 +106,7 @@ PhotonNeighbourhood PhotonMapSet::Around(const Part& part, const ShadingPoint& p
                           isOneSided,
                           false,
                           diskArea_};
-  return FindAt(point.surface.time, Map(part.kind), query, arena);
+  return FindAt(point.surface.time, Map(part.kind), query, widest_, arena);
 }
 
 Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,

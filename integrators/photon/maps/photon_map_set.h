@@ -84,6 +84,7 @@ class PhotonMapSet {
   int nUsed_ = 50;
   OwnPhotonWeight ownWeight_;
   double diskArea_ = 1;  // as in PreprocessContext
+  Real widest_ = 1;      // as in FindAt: a given radius is never exceeded
   DensityKernel kernel_ = DensityKernel::Constant;
 };
 

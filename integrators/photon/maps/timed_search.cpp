@@ -29,37 +29,46 @@ bool AreUneven(const PhotonMap& map, const PhotonNeighbourhood& around) {
   return differences * kExposureParts > kLimit * squares;
 }
 
-// Returns the photons in a window of one part of the exposure around the time. At the ends of the
-// exposure, the window is moved into it.
-PhotonNeighbourhood NearTime(Real time, const PhotonMap& map, const PhotonNeighbourhood& around,
-                             Arena* arena) {
-  constexpr Real kHalf = Real(.5) / kExposureParts;
-  const Interval exposure = map.Exposure();
-  const Real part = (time - exposure.min) / (exposure.max - exposure.min);
-  const Real middle = std::clamp(part, kHalf, 1 - kHalf);
+// Window is a part of the exposure.
+struct Window {
+  Real middle = 0, half = 0;
+
+  // A window of this length around the time. At the ends of the exposure, it is moved into it.
+  Window(Real time, const Interval& exposure, Real length) : half(length / 2) {
+    const Real part = (time - exposure.min) / (exposure.max - exposure.min);
+    middle = std::clamp(part, half, 1 - half);
+  }
+  // Half-open, so that a window always has the same number of codes of photon times.
+  bool Contains(Real part) const { return part - middle >= -half && part - middle < half; }
+};
+
+PhotonNeighbourhood Within(const Window& window, const PhotonMap& map,
+                           const PhotonNeighbourhood& around, Arena* arena) {
   const std::size_t size = around.photons.size();
   const std::span<std::uint32_t> photons{arena->AllocateArray<std::uint32_t>(size), size};
   const std::span<Real> distance2{arena->AllocateArray<Real>(size), size};
   std::size_t count = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    if (!(std::abs(map.PartOfExposure(around.photons[i]) - middle) < kHalf)) continue;
+    if (!window.Contains(map.PartOfExposure(around.photons[i]))) continue;
     photons[count] = around.photons[i];
     distance2[count] = around.distance2[i];
     ++count;
   }
-  return {photons.first(count), distance2.first(count), around.radius2, 2 * kHalf};
+  return {photons.first(count), distance2.first(count), around.radius2, 2 * window.half};
 }
 
 }  // namespace
 
-PhotonNeighbourhood FindAt(Real time, const PhotonMap& map, const PhotonQuery& query,
+PhotonNeighbourhood FindAt(Real time, const PhotonMap& map, const PhotonQuery& query, Real widest,
                            Arena* arena) {
   const PhotonNeighbourhood around = map.Find(query, arena);
-  if (!map.HasTimes() || !AreUneven(map, around)) return around;
+  const std::size_t searches = map.Size() / (std::size_t(query.k) * kSearchesInMap);
+  const int windows = int(std::min<std::size_t>(searches, kExposureParts));
+  if (!map.HasTimes() || windows < 2 || !AreUneven(map, around)) return around;
   PhotonQuery wide = query;
-  wide.k *= kExposureParts;
-  wide.maxDistance *= std::sqrt(Real(kExposureParts));
-  return NearTime(time, map, map.Find(wide, arena), arena);
+  wide.k *= windows;
+  wide.maxDistance *= std::min(std::sqrt(Real(windows)), widest);
+  return Within(Window(time, map.Exposure(), 1 / Real(windows)), map, map.Find(wide, arena), arena);
 }
 
 }  // namespace exphoton

@@ -102,6 +102,24 @@ TEST_F(PhotonFile, KeepsTheTimesOfMovingCaustics) {
   ExpectSamePicture();
 }
 
+// Photons of a scene where only the camera moves are the same at all times.
+TEST_F(PhotonFile, ServesAllTimesOfAMovingCamera) {
+  const auto write = [&](const char* times) {
+    std::string scene = Scene();
+    const std::string camera = "Camera \"perspective\"";
+    scene.replace(scene.find(camera), camera.size(),
+                  "ActiveTransform EndTime Translate .2 0 0 ActiveTransform All " + camera +
+                      " \"float shutteropen\" " + times);
+    Write("scene.pbrt", scene);
+  };
+  const Names more{"--set", "SurfaceIntegrator.causticphotons=9000"};
+  write("0 \"float shutterclose\" 1");
+  Shoot(more);
+  ExpectSamePicture(more);
+  write(".9 \"float shutterclose\" 1");
+  ExpectSamePicture(more);
+}
+
 TEST_F(PhotonFile, OfAnotherWorldIsRefused) {
   Shoot();
   Write("scene.pbrt", Scene("0 0 -3", "Translate 0 .1 0 "));

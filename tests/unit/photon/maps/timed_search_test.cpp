@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/math/sampling/random.h"
 
 namespace exphoton {
@@ -34,7 +36,7 @@ const PhotonQuery kQuery{{0, 0, 0}, {0, 0, 1}, 50, 1, true};
 // Returns the density of light at a time, relative to its mean over the exposure.
 double LightAt(Real time, const PhotonMap& map) {
   Arena arena;
-  const PhotonNeighbourhood around = FindAt(time, map, kQuery, &arena);
+  const PhotonNeighbourhood around = FindAt(time, map, kQuery, kInfinity, &arena);
   const double area = double(kPi * around.radius2);
   return double(around.photons.size()) / (area * double(around.exposure)) / (kPhotons / 4.);
 }
@@ -44,7 +46,7 @@ TEST(TimedSearch, CountsAllPhotonsOfEvenLight) {
   Arena arena;
   const PhotonNeighbourhood all = map.Find(kQuery, &arena);
   for (const Real time : {Real(0), Real(.3), Real(1)}) {
-    const PhotonNeighbourhood found = FindAt(time, map, kQuery, &arena);
+    const PhotonNeighbourhood found = FindAt(time, map, kQuery, kInfinity, &arena);
     EXPECT_EQ(found.exposure, 1);
     EXPECT_EQ(found.radius2, all.radius2);
     EXPECT_EQ(found.photons.size(), all.photons.size());
@@ -77,15 +79,62 @@ TEST(TimedSearch, WithoutTimesFindsWhatTheMapFinds) {
   const PhotonMap map = MapWith({0, 0}, [](Real u) { return u / 2; });
   EXPECT_FALSE(map.HasTimes());
   Arena arena;
-  EXPECT_EQ(FindAt(1, map, kQuery, &arena).photons.size(), map.Find(kQuery, &arena).photons.size());
+  EXPECT_EQ(FindAt(1, map, kQuery, kInfinity, &arena).photons.size(),
+            map.Find(kQuery, &arena).photons.size());
 }
 
-// Such photons lie along their directions, and far away, because their distances are not known.
+// The wider disk of a dim point takes in more of its brighter surroundings, so few photons would be
+// biased by windows.
+TEST(TimedSearch, OfFewPhotonsHasFewerWindows) {
+  Arena arena;
+  for (const auto& [k, exposure] : {std::pair(50, .125), {400, 1. / 3}, {600, .5}, {900, 1.}}) {
+    PhotonQuery query = kQuery;
+    query.k = k;
+    const PhotonMap map = MapWith({0, 1}, [](Real u) { return u / 2; });
+    EXPECT_FLOAT_EQ(float(FindAt(Real(.25), map, query, kInfinity, &arena).exposure),
+                    float(exposure))
+        << k;
+  }
+}
+
+TEST(TimedSearch, NeverExceedsAGivenRadius) {
+  const PhotonMap map = MapWith({0, 1}, [](Real u) { return u / 2; });
+  PhotonQuery query = kQuery;
+  query.maxDistance = Real(.05);  // 39 photons
+  Arena arena;
+  EXPECT_FLOAT_EQ(float(FindAt(Real(.25), map, query, 1, &arena).radius2), .0025f);
+  EXPECT_GT(FindAt(Real(.25), map, query, kInfinity, &arena).radius2, .01);
+}
+
+// Codes of times are (c + .5) / 256, and windows may begin and end at codes. The 127 nearest
+// photons have codes 0 to 126.
+TEST(TimedSearch, HasAsManyCodesInAllWindows) {
+  PhotonBuffer buffer;
+  buffer.paths = 1, buffer.times = {0, 1};
+  for (int i = 0; i < 4096; ++i) {
+    const Real radius = Real(.01) * std::sqrt(Real(i + 1)), angle = Real(2.4 * i);
+    const Point3 p{radius * std::cos(angle), radius * std::sin(angle), 0};
+    const PhotonRecord record({p, {0, 0, 1}, Spectrum(1)}, std::uint8_t(i % 128));
+    buffer.photons.Append({&record, 1});
+  }
+  ThreadPool threads(1);
+  const PhotonMap map(std::move(buffer), threads);
+  PhotonQuery query = kQuery;
+  query.k = 16;
+  Arena arena;
+  for (const Real time : {Real(.25), Real(64.5) / 256, Real(40.5) / 256, Real(.3)})
+    EXPECT_EQ(FindAt(time, map, query, kInfinity, &arena).photons.size(), 32u) << time;
+}
+
+// Such photons lie along their directions at the farthest distance, because theirs is not known.
 TEST(TimedSearch, OriginsOfPhotonsWithTimesAreFarAway) {
-  const PhotonMap map = MapWith({0, 1}, [](Real u) { return u; });
-  const Vector3 way = map.Origin(0) - map.Position(0);
-  EXPECT_GT(Length(way), 1e6);
-  EXPECT_NEAR(double(way.z / Length(way)), 1, 1e-5);
+  PhotonBuffer buffer;
+  buffer.paths = 1, buffer.times = {0, 1}, buffer.farthest = 10;
+  const PhotonRecord record({{1, 2, 3}, {0, 0, 1}, Spectrum(1)}, EncodePhotonTime(Real(.5)));
+  buffer.photons.Append({&record, 1});
+  ThreadPool threads(1);
+  const PhotonMap map(std::move(buffer), threads);
+  EXPECT_NEAR(double(map.Origin(0).z), 13, 1e-2);
 }
 
 }  // namespace
