@@ -116,8 +116,11 @@ TEST_F(PhotonFile, ServesAllTimesOfAMovingCamera) {
   write("0 \"float shutterclose\" 1");
   Shoot(more);
   ExpectSamePicture(more);
+  const std::string file = Read("maps.expm");
   write(".9 \"float shutterclose\" 1");
   ExpectSamePicture(more);
+  Shoot(more);
+  EXPECT_TRUE(Read("maps.expm") == file);
 }
 
 TEST_F(PhotonFile, OfAnotherWorldIsRefused) {
