@@ -11,7 +11,7 @@
 namespace exphoton {
 namespace {
 
-// Place is a part of the picture in fractions of it, and what stands on the floor under the lamp.
+// Place is a crop of the picture, in fractions of it, and the balls on the floor.
 struct Place {
   std::string crop, world;
 };
