@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // exphotonmap: extended photon mapping, for scenes whose light is mostly indirect. It is photonmap
-// with six improvements switched on: photons of nearly constant weight, precomputed radiance, a
-// final gather that is guided by photons, a smooth kernel, lights chosen by power, and gathers that
-// neighbouring pixels share. Four more defaults differ: pixels with edges take more camera samples,
-// roulette of paths begins earlier, photons are aimed at what can be seen, and their emission is
-// guided. docs/theory/exphotonmap.md derives it; integrators/photon/photon_integrator.h is the
-// algorithm.
+// with seven improvements switched on: photons of nearly constant weight, precomputed radiance, a
+// final gather that is guided by photons, a smooth kernel, lights chosen by power, gathers that
+// neighbouring pixels share, and walls that hide photons. Four more defaults differ: pixels with
+// edges take more camera samples, roulette of paths begins earlier, photons are aimed at what can
+// be seen, and their emission is guided. docs/theory/exphotonmap.md derives it;
+// integrators/photon/photon_integrator.h is the algorithm.
 #include "core/plugin.h"
 #include "integrators/photon/photon_integrator.h"
 
@@ -14,9 +14,10 @@ namespace {
 
 struct Settings : PhotonSettings {
   Settings() {
-    // The six improvements; each is a parameter of photonmap too.
+    // The seven improvements; each is a parameter of photonmap too.
     photonRoulette = PhotonRoulette::Luminance;  // photons of nearly constant weight
     radiancePhotons = true;
+    hidePhotons = true;
     gatherSampling = GatherSampling::Photons;
     kernel = DensityKernel::Simpson;
     lightSelection = LightSelection::Power;

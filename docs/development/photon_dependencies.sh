@@ -10,10 +10,11 @@ top=${1:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)}
 page=$top/docs/development/architecture.md
 
 # Each line: level, group, its files. A file belongs to the first group that names it.
-groups='6 integrator photon_integrator photon_pass photon_budget photon_stats
-5 certificate certificate/
-4 files files/
-4 gather gather/
+groups='7 integrator photon_integrator photon_pass photon_budget photon_stats
+6 certificate certificate/
+5 files files/
+5 gather gather/
+4 radiance radiance/
 1 photon maps/photon.h maps/photon_distance.h maps/photon_time.h maps/rest_pose.h maps/signed_power.h
 3 maps maps/
 2 shooting shooting/

@@ -9,7 +9,8 @@
 #include "core/base/memory.h"
 #include "core/transport/specular/caustic_lights.h"
 #include "integrators/photon/maps/photon_map.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/maps/walls.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 
 namespace exphoton {
 namespace {
@@ -51,6 +52,12 @@ std::string EmissionText(const PhotonSettings& settings, const Scene& scene,
     return hasIndirect ? "not guided (a medium emits photons)"
                        : "not guided (no caustic or indirect photons)";
   return "guided for " + maps + " photons, if few paths leave any";
+}
+
+const char* WallsText(const PhotonSettings& settings, const Scene& scene) {
+  if (!settings.hidePhotons) return "hide no photons: hidephotons is off";
+  return Walls(scene).Exist() ? "hide photons from points behind them"
+                              : "hide no photons: a shape moves";
 }
 
 }  // namespace
@@ -113,7 +120,8 @@ std::vector<std::string> ExplainBudget(const PhotonSettings& settings, const Sce
   std::vector<std::string> lines{"photons       " + (photons.empty() ? "none" : photons),
                                  "gather        " + GatherText(settings, scene, targets),
                                  "memory        about " + mebibytes + " MiB for the photon maps",
-                                 "emission      " + EmissionText(settings, scene, targets)};
+                                 "emission      " + EmissionText(settings, scene, targets),
+                                 "walls         " + std::string(WallsText(settings, scene))};
   const int dark = CausticLights(scene).OutOfReachCount();
   if (scene.Features().Needs(Feature::Caustics) && dark > 0)
     lines.push_back("proofs        no caustics of " + std::to_string(dark) + " of " +

@@ -64,7 +64,9 @@ void PhotonIntegrator::Preprocess(const Scene& scene, PreprocessContext& context
 void PhotonIntegrator::BuildMaps(const Scene& scene, PhotonPassResult* photons,
                                  PreprocessContext& context) {
   const PhaseTimer timer(context.statistics, "photon maps");
-  maps_ = PhotonMapSet(photons, settings_, BoundingSphere(scene.WorldBounds()).radius, context);
+  const Real sceneRadius = BoundingSphere(scene.WorldBounds()).radius;
+  const Walls walls = settings_.hidePhotons ? Walls(scene) : Walls();
+  maps_ = PhotonMapSet(photons, settings_, sceneRadius, context, walls);
   if (gathers_) {
     gather_.Prepare(maps_.Map(PhotonKind::Indirect));
     correctionGuide_.Prepare(maps_.Map(PhotonKind::Indirect));

@@ -15,9 +15,9 @@
 #include "integrators/photon/certificate/exact_radiance.h"
 #include "integrators/photon/gather/final_gather.h"
 #include "integrators/photon/maps/photon_map_set.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
 #include "integrators/photon/photon_budget.h"
 #include "integrators/photon/photon_settings.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 
 namespace exphoton {
 

@@ -81,6 +81,10 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
       Param("radiancephotons", &S::radiancePhotons,
             "gather rays read precomputed radiance instead of three density estimates"),
       Param(
+          "hidephotons", &S::hidePhotons,
+          "photons that a wall hides from a point do not count there; without effect where shapes "
+          "move"),
+      Param(
           "gathersampling", &S::gatherSampling,
           "where gather rays go: up to half of them in cones round photons' directions (photons), "
           "half by a histogram (jensen) or footprints (hey) of photons, or all by the BSDF")

@@ -49,6 +49,7 @@ struct PhotonSettings {
   LightSelection lightSelection = LightSelection::Uniform;
   PhotonRoulette photonRoulette = PhotonRoulette::Half;
   bool radiancePhotons = false;
+  bool hidePhotons = false;
   GatherSampling gatherSampling = GatherSampling::Bsdf;
   DensityKernel kernel = DensityKernel::Constant;
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "integrators/photon/maps/photon_map_set.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 #include "integrators/photon/shooting/photon_tracer.h"
 
 namespace exphoton {

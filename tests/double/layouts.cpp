@@ -5,7 +5,7 @@
 #include "accelerators/kd/kd_build.h"
 #include "integrators/photon/gather/cone_directions.h"
 #include "integrators/photon/maps/photon_map_set.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 
 namespace exphoton {
 

@@ -63,7 +63,8 @@ void GatherRay::LookUp(std::span<Segment> segments) const {
   std::size_t count = 0;
   const auto look = [&] {
     radianceMap_->Find({places, count}, found);
-    for (std::size_t i = 0; i < count; ++i) of[i]->entry = found[i];
+    for (std::size_t i = 0; i < count; ++i)
+      if (!found[i] || !IsHidden(*found[i], places[i])) of[i]->entry = found[i];
     count = 0;
   };
   for (Segment& segment : segments) {
@@ -76,6 +77,13 @@ void GatherRay::LookUp(std::span<Segment> segments) const {
     if (count == kAtOnce) look();
   }
   look();
+}
+
+bool GatherRay::IsHidden(const RadiancePhotonMap::Entry& entry,
+                         const RadiancePhotonMap::Place& place) const {
+  if (!entry.isBesideWall) return false;
+  const Vector3 up(place.n);
+  return maps_.HidingWalls().AreBetween({place.p, up}, {entry.p, up});
 }
 
 Spectrum GatherRay::Along(Segment* segment) const {
@@ -254,7 +262,12 @@ Spectrum GatherRay::ReadMaps(const Segment& segment, Spectrum* signedRadiance) c
   }
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = Shade(segment);
-  const Spectrum radiance = maps_.Radiance(point, &context_.arena, mappedLobes_, signedRadiance);
+  // A short ray knows a radiance photon near its hit, and so whether a wall stands there.
+  const HiddenPhotons hidden = segment.entry && !segment.entry->isBesideWall
+                                   ? HiddenPhotons::Counted
+                                   : HiddenPhotons::LeftOutInTheMean;
+  const Spectrum radiance =
+      maps_.Radiance(point, &context_.arena, mappedLobes_, signedRadiance, hidden);
   context_.arena.Rewind(mark);
   return radiance;
 }

@@ -11,7 +11,7 @@
 #include "core/transport/integrator.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/maps/photon_map_set.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 
 namespace exphoton {
 
@@ -111,6 +111,8 @@ class GatherRay {
     if (!segment.hit || !segment.hit->material) return LobeSet::None;
     return segment.hit->material->PossibleLobes() & followedLobes_;
   }
+  // Returns whether a wall hides a radiance photon from a place.
+  bool IsHidden(const RadiancePhotonMap::Entry& entry, const RadiancePhotonMap::Place& place) const;
   Spectrum Along(Segment* segment) const;
   void Complete(Walk* walk) const;
   // Replaces the segment by the next one. Returns false if the walk ends.

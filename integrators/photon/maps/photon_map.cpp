@@ -9,6 +9,7 @@
 #include "core/scattering/bxdf.h"
 #include "core/spatial/search_start.h"
 #include "core/transport/shading_normal.h"
+#include "integrators/photon/maps/hidden_photons.h"
 
 namespace exphoton {
 namespace {
@@ -64,9 +65,11 @@ PhotonNeighbourhood PhotonMap::Find(const PhotonQuery& query, Arena* arena) cons
   return {found.index.first(last), found.distance2.first(last), farthest2 * area};
 }
 
-PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena) const {
+PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Arena* arena,
+                                                    const Walls& walls) const {
   const Arena::Mark mark = arena->GetMark();
-  const PhotonNeighbourhood around = Find(query, arena);
+  const SeenPhotons seen = WithoutHidden(*this, query, Find(query, arena), walls, arena);
+  const PhotonNeighbourhood& around = seen.around;
   const Real spacings = Real(kOwnDisk * query.k * query.diskArea);
   Irradiance found;
   Real largest2 = 0;
@@ -88,6 +91,7 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
   const Real radius2 = around.radius2, ofDisks2 = largest2 / Real(kOwnDisk);
   found.density = double(around.photons.size() - owns) / double(radius2) * query.diskArea;
   found.radius = std::sqrt(largest2 > 0 ? std::min(radius2, ofDisks2) : radius2);
+  found.isBesideWall = seen.isBesideWall;
   return found;
 }
 

@@ -13,6 +13,7 @@
 #include "core/spatial/nearest_search.h"
 #include "integrators/photon/maps/photon.h"
 #include "integrators/photon/maps/photon_time.h"
+#include "integrators/photon/maps/walls.h"
 
 namespace exphoton {
 
@@ -109,8 +110,11 @@ class PhotonMap {
     double ownDisk2 = 0;  // squared radius of their disks
     double density = 0;   // other photons in a disk whose squared radius is 1
     Real radius = 0;      // of Find, at most the one of k photons as dense as in the largest disk
+    bool isBesideWall = false;  // a wall stands in the disk, and the surface goes on behind it
   };
-  Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena) const;
+  // Photons behind `walls` do not count.
+  Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena,
+                                const Walls& walls = Walls()) const;
 
   // Finds the k nearest photons at any distance and on any side; all photons if the map has fewer.
   // The result is ordered by ascending index.

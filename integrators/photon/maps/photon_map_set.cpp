@@ -6,6 +6,7 @@
 #include "core/base/progress.h"
 #include "core/transport/shading_normal.h"
 #include "integrators/photon/maps/density_kernel.h"
+#include "integrators/photon/maps/hidden_photons.h"
 #include "integrators/photon/maps/rest_pose.h"
 #include "integrators/photon/maps/timed_search.h"
 
@@ -50,9 +51,10 @@ std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buff
 }
 
 PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings,
-                           Real sceneRadius, PreprocessContext& context)
+                           Real sceneRadius, PreprocessContext& context, const Walls& walls)
     : nUsed_(settings.nUsed),
       ownWeight_(WeightOfOwnPhoton(settings, context.diskArea)),
+      walls_(walls),
       diskArea_(context.diskArea),
       widest_(settings.maxDist ? Real(1) : kInfinity),
       kernel_(settings.kernel) {
@@ -71,11 +73,16 @@ PhotonMapSet::PhotonMapSet(PhotonPassResult* result, const PhotonSettings& setti
 
 Spectrum PhotonMapSet::Radiance(PhotonKind kind, const ShadingPoint& point, Arena* arena,
                                 LobeSet lobes, Spectrum* signedRadiance) const {
+  return Radiance({kind, lobes}, point, arena, signedRadiance);
+}
+
+Spectrum PhotonMapSet::Radiance(const Part& part, const ShadingPoint& point, Arena* arena,
+                                Spectrum* signedRadiance) const {
   if (signedRadiance) *signedRadiance = {};
-  if (Map(kind).IsEmpty() || !point.bsdf.Has(lobes)) return {};
+  if (Map(part.kind).IsEmpty() || !point.bsdf.Has(part.lobes)) return {};
   const Arena::Mark mark = arena->GetMark();
-  const PhotonNeighbourhood around = Around({kind, lobes}, point, arena);
-  const Spectrum radiance = Estimate({kind, lobes}, point, around, around.radius2, signedRadiance);
+  const PhotonNeighbourhood around = Around(part, point, arena);
+  const Spectrum radiance = Estimate(part, point, around, around.radius2, signedRadiance);
   arena->Rewind(mark);
   return radiance;
 }
@@ -106,7 +113,17 @@ PhotonNeighbourhood PhotonMapSet::Around(const Part& part, const ShadingPoint& p
                           isOneSided,
                           false,
                           diskArea_};
-  return FindAt(point.surface.time, Map(part.kind), query, widest_, arena);
+  const PhotonMap& map = Map(part.kind);
+  const PhotonNeighbourhood around = FindAt(point.surface.time, map, query, widest_, arena);
+  switch (part.hidden) {
+    case HiddenPhotons::LeftOut:
+      return WithoutHidden(map, query, around, walls_, arena).around;
+    case HiddenPhotons::LeftOutInTheMean:
+      return ProbablySeen(map, query, around, walls_, arena);
+    case HiddenPhotons::Counted:
+      return around;
+  }
+  return around;
 }
 
 Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
@@ -155,11 +172,11 @@ Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
 }
 
 Spectrum PhotonMapSet::Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes,
-                                Spectrum* signedRadiance) const {
+                                Spectrum* signedRadiance, HiddenPhotons hidden) const {
   Spectrum sum, signedSum;
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
     Spectrum signedPart;
-    sum += Radiance(kind, point, arena, lobes, signedRadiance ? &signedPart : nullptr);
+    sum += Radiance({kind, lobes, hidden}, point, arena, signedRadiance ? &signedPart : nullptr);
     signedSum += signedPart;
   }
   if (signedRadiance) *signedRadiance = signedSum;
@@ -190,7 +207,7 @@ PhotonMapSet::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const
   for (std::size_t m = 0; m < kPhotonKindCount; ++m) {
     if (maps_[m].IsEmpty()) continue;
     parts[m] = maps_[m].EstimateIrradiance(
-        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, normals}, arena);
+        {p, n, nUsed_, radii_[m], true, isCoated, diskArea_, normals}, arena, walls_);
     density += parts[m].density;
   }
   Irradiance total;
@@ -200,6 +217,7 @@ PhotonMapSet::Irradiance PhotonMapSet::EstimateIrradiance(const Point3& p, const
     weight += light;
     weightedRadius += light * part.radius;
     total.radius = std::max(total.radius, part.radius);
+    total.isBesideWall = total.isBesideWall || part.isBesideWall;
   }
   if (weight > 0) total.radius = weightedRadius / weight;
   const double inReach = density * double(Square(total.radius)) * ownWeight_.Reach2();

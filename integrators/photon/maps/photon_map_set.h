@@ -21,15 +21,24 @@ namespace exphoton {
 std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buffers,
                                                     ThreadPool& threads);
 
+// What becomes of photons that a wall hides from the point of an estimate (hidden_photons.h).
+enum class HiddenPhotons {
+  LeftOut,
+  LeftOutInTheMean,  // over many points, with fewer rays
+  Counted,           // for points that have no wall in their disks
+};
+
 class PhotonMapSet {
  public:
   PhotonMapSet() = default;
   // Builds the maps from the buffers, which it consumes, and chooses the radii if the settings give
-  // none. sceneRadius: radius of the bounding sphere of the scene.
+  // none. sceneRadius: radius of the bounding sphere of the scene. Photons behind `walls` do not
+  // count.
   PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings, Real sceneRadius,
-               PreprocessContext& context);
+               PreprocessContext& context, const Walls& walls = Walls());
 
   const PhotonMap& Map(PhotonKind kind) const { return maps_[std::size_t(kind)]; }
+  const Walls& HidingWalls() const { return walls_; }
   Real MaxDistance(PhotonKind kind) const { return radii_[std::size_t(kind)]; }
 
   // Returns the radiance leaving the point towards wo by `lobes` (all non-specular), estimated from
@@ -41,7 +50,8 @@ class PhotonMapSet {
                     LobeSet lobes = LobeSet::NonSpecular, Spectrum* signedRadiance = nullptr) const;
   // Sums the radiance over all three maps.
   Spectrum Radiance(const ShadingPoint& point, Arena* arena, LobeSet lobes = LobeSet::NonSpecular,
-                    Spectrum* signedRadiance = nullptr) const;
+                    Spectrum* signedRadiance = nullptr,
+                    HiddenPhotons hidden = HiddenPhotons::LeftOut) const;
 
   // Returns Radiance(kind, ...), and an estimate of the true radiance minus it, as far as the
   // kernel's blur causes the difference. The bias of a smooth illumination grows with the square of
@@ -61,8 +71,9 @@ class PhotonMapSet {
   // counts with OwnPhotonWeight. isCoated and normals: as in PhotonQuery.
   struct Irradiance {
     Spectrum e;
-    Spectrum signedE;  // each photon has its sign
-    Real radius = 0;   // mean of the maps' radii, weighted by the luminance of each map
+    Spectrum signedE;           // each photon has its sign
+    Real radius = 0;            // mean of the maps' radii, weighted by the luminance of each map
+    bool isBesideWall = false;  // as in PhotonMap::Irradiance, of any map
   };
   Irradiance EstimateIrradiance(const Point3& p, const Normal3& n, Arena* arena,
                                 bool isCoated = false, const ShadingNormals& normals = {}) const;
@@ -72,7 +83,10 @@ class PhotonMapSet {
   struct Part {
     PhotonKind kind;
     LobeSet lobes;
+    HiddenPhotons hidden = HiddenPhotons::LeftOut;
   };
+  Spectrum Radiance(const Part& part, const ShadingPoint& point, Arena* arena,
+                    Spectrum* signedRadiance) const;
   // Returns the photons around a point that may contribute to a part.
   PhotonNeighbourhood Around(const Part& part, const ShadingPoint& point, Arena* arena) const;
   // Returns the estimate from the photons within radius2. signedRadiance may be null.
@@ -83,6 +97,7 @@ class PhotonMapSet {
   std::array<Real, kPhotonKindCount> radii_{};
   int nUsed_ = 50;
   OwnPhotonWeight ownWeight_;
+  Walls walls_;
   double diskArea_ = 1;  // as in PreprocessContext
   Real widest_ = 1;      // as in FindAt: a given radius is never exceeded
   DensityKernel kernel_ = DensityKernel::Constant;

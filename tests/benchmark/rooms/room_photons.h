@@ -4,7 +4,7 @@
 #pragma once
 
 #include "integrators/photon/maps/photon.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 
 namespace exphoton {
 

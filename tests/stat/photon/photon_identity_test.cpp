@@ -61,7 +61,8 @@ const std::string kPlain =
         "\"exphotonmap\" \"string lightselection\" \"uniform\" \"string photonroulette\" "
         "\"half\" \"bool radiancephotons\" \"false\" \"string gathersampling\" \"bsdf\" "
         "\"string kernel\" \"constant\" \"float rrthreshold\" 0 \"bool sharedgather\" \"false\" "
-        "\"bool guideemission\" \"false\" \"integer edgesamples\" 1") +
+        "\"bool guideemission\" \"false\" \"integer edgesamples\" 1 \"bool hidephotons\" "
+        "\"false\"") +
     kCounts;
 
 TEST(PhotonIdentity, ExphotonmapWithPlainSwitchesIsPhotonmapBitForBit) {

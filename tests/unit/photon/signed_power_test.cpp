@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "integrators/photon/maps/packed_ratios.h"
+#include "integrators/photon/radiance/packed_ratios.h"
 
 namespace exphoton {
 namespace {

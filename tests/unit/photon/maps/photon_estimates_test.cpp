@@ -20,7 +20,7 @@
 #include "core/scattering/lobes/transmitted.h"
 #include "core/transport/shading_point.h"
 #include "integrators/photon/maps/photon_map_set.h"
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 #include "tests/support/scattering.h"
 
 namespace exphoton {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // RadiancePhotonMap computes the radiance photons, and finds the one that is valid for a hit.
-#include "integrators/photon/maps/radiance_photon_map.h"
+#include "integrators/photon/radiance/radiance_photon_map.h"
 
 #include <algorithm>
 
@@ -27,9 +27,12 @@ void ComputeEntries(const RadiancePhotonSite& site, const PhotonMapSet& maps, Ar
                          const Irradiance& behind) {
     const Spectrum value = rho * on.e + tau * behind.e;
     const Spectrum signedValue = rho * on.signedE + tau * behind.signedE;
-    return RadianceRecord{site.p, EncodeOctahedral(n), Square(radius),
+    return RadianceRecord{site.p,
+                          EncodeOctahedral(n),
+                          Square(radius),
                           PackedRadiance(value, site.glossyShare, site.isCoated),
-                          PackedRatios(signedValue, value)};
+                          PackedRatios(signedValue, value),
+                          on.isBesideWall};
   };
   const auto front = maps.EstimateIrradiance(site.p, site.n, arena, site.isCoated, site.normals);
   if (entries.size() == 1) {
@@ -94,8 +97,12 @@ void RadiancePhotonMap::Find(std::span<const Place> places, std::optional<Entry>
       if (closest[i].index == ClosestPoint::kNone) continue;
       const RadianceBlock& block = tree_.BlockOf(closest[i].index);
       const std::uint32_t lane = tree_.Lane(closest[i].index);
-      *found = {block.value[lane], block.signedRatios[lane],
-                SafeDivide(block.radius2[lane], Square(reach_), 0), closest[i].distance2};
+      *found = {block.value[lane],
+                block.signedRatios[lane],
+                SafeDivide(block.radius2[lane], Square(reach_), 0),
+                closest[i].distance2,
+                block.isBesideWall[lane],
+                tree_.Position(closest[i].index)};
     }
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-2-Clause
-// PackedRatios stores, in four bytes, the ratio of a signed estimate (signed_power.h) to the
+// PackedRatios stores, in three bytes, the ratio of a signed estimate (signed_power.h) to the
 // estimate itself, for each channel. The ratio lies in [-1,1], and its error is at most 1/254.
 #pragma once
 
@@ -30,7 +30,7 @@ class PackedRatios {
 
  private:
   static constexpr Real kSteps = 127;
-  std::array<std::int8_t, 4> steps_{};  // the last one is unused
+  std::array<std::int8_t, 3> steps_{};
 };
 
 }  // namespace exphoton

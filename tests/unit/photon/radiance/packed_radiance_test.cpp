@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // These tests check that PackedRadiance returns the values that were packed, including black.
-#include "integrators/photon/maps/packed_radiance.h"
+#include "integrators/photon/radiance/packed_radiance.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 #include "core/scattering/bxdf.h"
 #include "core/spatial/nearest_search.h"
 #include "core/spatial/search_start.h"
-#include "integrators/photon/maps/packed_radiance.h"
-#include "integrators/photon/maps/packed_ratios.h"
 #include "integrators/photon/maps/photon_map_set.h"
+#include "integrators/photon/radiance/packed_radiance.h"
+#include "integrators/photon/radiance/packed_ratios.h"
 
 namespace exphoton {
 
@@ -26,6 +26,7 @@ struct RadianceRecord {
   // coat's transmission on the way in. Entry::Value applies the transmission on the way out.
   PackedRadiance value;
   PackedRatios signedRatios;  // of the value with the sign of each photon
+  bool isBesideWall = false;  // PhotonMapSet::Irradiance
 };
 
 struct RadianceBlock : DiskBlock {
@@ -33,11 +34,13 @@ struct RadianceBlock : DiskBlock {
 
   PackedRadiance value[kBlockPoints];  // only read for single lanes
   PackedRatios signedRatios[kBlockPoints];
+  bool isBesideWall[kBlockPoints];
   void Set(std::uint32_t lane, const RadianceRecord& record) {
     PointBlock::Set(lane, {record.p, record.direction});
     radius2[lane] = record.radius2;
     value[lane] = record.value;
     signedRatios[lane] = record.signedRatios;
+    isBesideWall[lane] = record.isBesideWall;
   }
 };
 
@@ -49,6 +52,8 @@ class RadiancePhotonMap {
     PackedRatios signedRatios;
     Real radius2 = 0;    // squared radius of its density estimate
     Real distance2 = 0;  // squared distance from the point
+    bool isBesideWall = false;
+    Point3 p;  // of the radiance photon
 
     // Returns the exitant radiance. absCos: absolute cosine between the normal and the viewing
     // direction.

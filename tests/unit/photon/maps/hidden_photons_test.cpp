@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-2-Clause
+// These tests check which photons a wall hides from a point, on a floor with a wall without
+// thickness.
+#include "integrators/photon/maps/hidden_photons.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/test_scene.h"
+
+namespace exphoton {
+namespace {
+
+std::string Mesh(const std::string& points) {
+  return "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" [" + points + "]\n";
+}
+
+const std::string kFloor = Mesh("-4 -4 0  4 -4 0  4 4 0  -4 4 0");
+const std::string kWall = Mesh("0 -4 0  0 4 0  0 4 3  0 -4 3");  // at x = 0
+
+LoadedScene SceneOf(const std::string& world) {
+  return LoadSceneText(TestHeader("\"path\"", 1, 1, 1) + "WorldBegin\n" + world + "WorldEnd\n");
+}
+
+// Places on the floor and on the wall, with the direction to a light above both of its sides.
+const Vector3 kUp{0, 0, 1};
+const Vector3 kRight = Normalize(Vector3{1, 0, 1}), kLeft = Normalize(Vector3{-1, 0, 1});
+
+TEST(Walls, AreBetweenTheirSides) {
+  const LoadedScene loaded = SceneOf(kFloor + kWall);
+  const Walls walls(*loaded.setup->scene);
+  ASSERT_TRUE(walls.Exist());
+  const Walls::Place here{{Real(.2), 0, 0}, kUp};
+  EXPECT_FALSE(walls.AreBetween(here, {{Real(.9), 0, 0}, kRight}));
+  EXPECT_FALSE(walls.AreBetween(here, {{0, 0, Real(.1)}, kRight})) << "on this side of the wall";
+  EXPECT_TRUE(walls.AreBetween(here, {{0, 0, Real(.1)}, kLeft})) << "on its other side";
+  EXPECT_TRUE(walls.AreBetween(here, {{Real(-.1), 0, 0}, kLeft}));
+  EXPECT_FALSE(walls.AreBetween(here, {here.p, kRight})) << "the same place";
+}
+
+TEST(Walls, SeeSurfacesInTheTangentPlane) {
+  const LoadedScene loaded = SceneOf(kFloor + kWall);
+  const Walls walls(*loaded.setup->scene);
+  EXPECT_TRUE(walls.SurfaceContinues({{1, 0, 0}, kUp}, {-1, 0, 0}, 2));
+  EXPECT_TRUE(walls.SurfaceContinues({{1, 0, 0}, kUp}, {1, 0, 0}, 2));
+  EXPECT_FALSE(walls.SurfaceContinues({{3, 0, 0}, kUp}, {1, 0, 0}, 2)) << "beyond the edge";
+}
+
+TEST(Walls, DoNotExistWhereShapesMove) {
+  const std::string moving =
+      "AttributeBegin\nActiveTransform EndTime\nTranslate 1 0 0\nActiveTransform All\n"
+      "Shape \"sphere\"\nAttributeEnd\n";
+  EXPECT_FALSE(Walls(*SceneOf(kFloor + moving).setup->scene).Exist());
+  EXPECT_FALSE(Walls().Exist());
+}
+
+// Photons in a row across the wall, on the floor and on both sides of the wall. Without isRightLit,
+// only the left side has photons.
+struct Row {
+  LoadedScene loaded;
+  PhotonMap map;
+  Arena arena;
+
+  Row(const std::string& world, bool isRightLit) : loaded(SceneOf(world)) {
+    PhotonBuffer buffer;
+    buffer.paths = 1;
+    const auto add = [&](Real x, Real z, const Vector3& wi) {
+      const PhotonRecord record({{x, 0, z}, wi, Spectrum(1)});
+      buffer.photons.Append({&record, 1});
+    };
+    for (int i = 1; i <= 10; ++i) {
+      const Real at = Real(i) / 10;
+      add(-at, 0, kLeft);
+      add(0, at / 3, kLeft);
+      if (isRightLit) add(at, 0, kRight), add(0, at / 3, kRight);
+    }
+    ThreadPool threads(1);
+    map = PhotonMap(std::move(buffer), threads);
+  }
+
+  PhotonQuery Query(Real x) const { return {{x, 0, 0}, Normal3(kUp), 100, 2, true}; }
+  PhotonNeighbourhood Around(Real x) { return map.Find(Query(x), &arena); }
+  SeenPhotons SeenFrom(Real x) {
+    return WithoutHidden(map, Query(x), Around(x), Walls(*loaded.setup->scene), &arena);
+  }
+  PhotonNeighbourhood ProbablySeenFrom(Real x) {
+    return ProbablySeen(map, Query(x), Around(x), Walls(*loaded.setup->scene), &arena);
+  }
+};
+
+TEST(HiddenPhotons, DoNotCountBehindAWall) {
+  Row row(kFloor + kWall, true);
+  const SeenPhotons seen = row.SeenFrom(Real(.35));
+  EXPECT_TRUE(seen.isBesideWall);
+  EXPECT_EQ(row.Around(Real(.35)).photons.size(), 40u);
+  EXPECT_EQ(seen.around.photons.size(), 20u);
+  EXPECT_EQ(seen.around.distance2.size(), 20u);
+  EXPECT_EQ(seen.around.radius2, row.Around(Real(.35)).radius2);
+  for (const std::uint32_t photon : seen.around.photons) EXPECT_GT(row.map.Direction(photon).x, 0);
+}
+
+TEST(HiddenPhotons, CountWithoutAWall) {
+  Row row(kFloor, true);
+  EXPECT_EQ(row.SeenFrom(Real(.35)).around.photons.size(), 40u);
+  EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 40u);
+}
+
+TEST(HiddenPhotons, LeaveNothingOnADarkSide) {
+  Row row(kFloor + kWall, false);
+  EXPECT_TRUE(row.SeenFrom(Real(.35)).isBesideWall);
+  EXPECT_EQ(row.SeenFrom(Real(.35)).around.photons.size(), 0u);
+  EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 0u);
+}
+
+// From the lit side of the wall nothing is hidden, but the floor goes on behind the wall, so points
+// there must not read what is computed here.
+TEST(HiddenPhotons, ShowThatTheFloorGoesOnBehindAWall) {
+  Row row(kFloor + kWall, false);
+  EXPECT_TRUE(row.SeenFrom(Real(-.35)).isBesideWall);
+  EXPECT_EQ(row.SeenFrom(Real(-.35)).around.photons.size(), 20u);
+  Row corner(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + kWall, false);  // the floor ends at the wall
+  EXPECT_FALSE(corner.SeenFrom(Real(-.35)).isBesideWall);
+  Row open(kFloor, false);
+  EXPECT_EQ(open.SeenFrom(Real(-.35)).around.photons.size(), 20u);
+}
+
+// Half of the photons before the plane are hidden, so half of the points leave them all out.
+TEST(HiddenPhotons, AreLeftOutInTheMeanOverManyPoints) {
+  Row row(kFloor + kWall, true);
+  int before = 0, points = 0;
+  for (Real x = Real(.2); x < Real(.4); x += Real(.001), ++points) {
+    const auto seen = row.ProbablySeenFrom(x).photons;
+    before += int(std::count_if(seen.begin(), seen.end(), [&](std::uint32_t photon) {
+      return row.map.Position(photon).z > 0;
+    }));
+  }
+  EXPECT_NEAR(double(before) / points, 10, 2.5);  // of 20; a standard error of .7
+}
+
+}  // namespace
+}  // namespace exphoton
