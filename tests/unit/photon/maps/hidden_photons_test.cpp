@@ -113,6 +113,30 @@ TEST(HiddenPhotons, LeaveNothingOnADarkSide) {
   EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 0u);
 }
 
+// A photon on the top of a block counts at its side, although the block lies between them. Another
+// photon stands behind a screen before the block, so all photons are tested.
+TEST(HiddenPhotons, CountRoundTheEdgeOfASolid) {
+  const LoadedScene loaded =
+      SceneOf(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + Mesh("0 -4 -4  0 4 -4  0 4 0  0 -4 0") +
+              Mesh(".2 -4 -4  .2 4 -4  .2 4 4  .2 -4 4"));
+  const Photon photons[]{{{Real(-.3), 0, 0}, kRight, Spectrum(1)},
+                         {{Real(.3), 0, Real(-.5)}, kRight, Spectrum(1)}};
+  PhotonBuffer buffer(photons, 1);
+  ThreadPool threads(1);
+  const PhotonMap map(std::move(buffer), threads);
+  Arena arena;
+  const PhotonQuery query{{0, 0, Real(-.2)}, {1, 0, 0}, 100, 2, true};
+  const PhotonNeighbourhood around = map.Find(query, &arena);
+  ASSERT_EQ(around.photons.size(), 2u);
+  const Walls walls(*loaded.setup->scene);
+  const SeenPhotons seen = WithoutHidden(map, query, around, walls, &arena);
+  ASSERT_EQ(seen.around.photons.size(), 1u);
+  EXPECT_LT(map.Position(seen.around.photons[0]).x, 0);
+  const PhotonNeighbourhood probable = ProbablySeen(map, query, around, walls, &arena);
+  ASSERT_EQ(probable.photons.size(), 1u);
+  EXPECT_LT(map.Position(probable.photons[0]).x, 0);
+}
+
 // From the lit side of the wall nothing is hidden, but the floor goes on behind the wall, so points
 // there must not read what is computed here.
 TEST(HiddenPhotons, ShowThatTheFloorGoesOnBehindAWall) {
