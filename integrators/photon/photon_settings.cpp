@@ -82,8 +82,8 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "gather rays read precomputed radiance instead of three density estimates"),
       Param(
           "hidephotons", &S::hidePhotons,
-          "photons that a wall hides from a point do not count there; without effect where shapes "
-          "move"),
+          "photons that a wall hides from a point count there no more than the seen ones; without "
+          "effect where shapes move"),
       Param(
           "gathersampling", &S::gatherSampling,
           "where gather rays go: up to half of them in cones round photons' directions (photons), "

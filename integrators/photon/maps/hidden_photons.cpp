@@ -16,55 +16,48 @@ enum class Layer { Behind, On, Before };
 class View {
  public:
   View(const PhotonMap& map, const PhotonQuery& query, const Walls& walls)
-      : map_(map), walls_(walls), from_{query.p, Vector3(query.n)} {}
+      : map_(map), walls_(walls), p_(query.p), n_(query.n), isOneSided_(query.isOneSided) {}
 
   // Returns the signed square of the sine of the photon's angle over the tangent plane; 0 for a
   // photon at the point.
   Real Sine2(std::uint32_t photon) const {
-    const Vector3 to = map_.Position(photon) - from_.p;
-    const Real height = Dot(to, from_.free);
+    const Vector3 to = map_.Position(photon) - p_;
+    const Real height = Dot(to, SideOf(photon));
     return SafeDivide(height * std::abs(height), LengthSquared(to), Real(0));
   }
   Layer LayerOf(std::uint32_t photon) const {
-    constexpr Real kOnPlane2 = Square(Real(.05));  // 3 degrees
+    // Of 3 degrees: Walls lifts both ends of a segment by as much.
+    constexpr Real kOnPlane2 = Square(Walls::kLift);
     const Real sine2 = Sine2(photon);
     if (sine2 > kOnPlane2) return Layer::Before;
     return sine2 < -kOnPlane2 ? Layer::Behind : Layer::On;
   }
   bool Hides(std::uint32_t photon) const {
-    return walls_.AreBetween(from_, {map_.Position(photon), map_.Direction(photon)});
+    return walls_.AreBetween({p_, SideOf(photon)}, {map_.Position(photon), map_.Direction(photon)});
   }
   // Returns whether the surface of the point goes on, at this distance, behind the wall on which
   // the photon lies.
   bool HasGroundBehind(std::uint32_t photon, Real distance) const {
-    const Vector3 to = map_.Position(photon) - from_.p;
-    const Vector3 along = to - from_.free * Dot(to, from_.free);
+    const Vector3 up = SideOf(photon), to = map_.Position(photon) - p_;
+    const Vector3 along = to - up * Dot(to, up);
     const Real away = Length(along);
-    return away > 0 && away < distance && walls_.SurfaceContinues(from_, along / away, distance);
+    return away > 0 && away < distance && walls_.SurfaceContinues({p_, up}, along / away, distance);
   }
 
  private:
+  // Returns the normal on the side of the point's surface where the photon arrived. On a surface
+  // that transmits, photons of both sides count.
+  Vector3 SideOf(std::uint32_t photon) const {
+    if (isOneSided_) return n_;
+    return Dot(map_.Direction(photon), n_) < 0 ? -n_ : n_;
+  }
+
   const PhotonMap& map_;
   const Walls& walls_;
-  Walls::Place from_;
+  Point3 p_;
+  Vector3 n_;
+  bool isOneSided_;
 };
-
-// Returns the photons of a layer.
-std::span<const std::uint32_t> In(Layer layer, const View& view, const PhotonNeighbourhood& around,
-                                  Arena* arena) {
-  const std::size_t size = around.photons.size();
-  const std::span<std::uint32_t> photons{arena->AllocateArray<std::uint32_t>(size), size};
-  std::size_t count = 0;
-  for (const std::uint32_t photon : around.photons)
-    if (view.LayerOf(photon) == layer) photons[count++] = photon;
-  return photons.first(count);
-}
-
-// Returns a random key that depends on the point of the estimate, but not on the scene's scale.
-std::uint64_t KeyOf(const PhotonNeighbourhood& around) {
-  const auto nearness = float(SafeDivide(around.distance2.front(), around.radius2, Real(0)));
-  return HashKey({around.photons.front(), std::bit_cast<std::uint32_t>(nearness)});
-}
 
 // Returns the photons for which `counts` is true.
 template <typename Counts>
@@ -84,29 +77,33 @@ PhotonNeighbourhood Only(const PhotonNeighbourhood& around, Arena* arena, const 
   return some;
 }
 
+// Returns a random key that depends on the point of the estimate, but not on the scene's scale.
+std::uint64_t KeyOf(const PhotonNeighbourhood& around) {
+  const auto nearness = float(SafeDivide(around.distance2.front(), around.radius2, Real(0)));
+  return HashKey({around.photons.front(), std::bit_cast<std::uint32_t>(nearness)});
+}
+
 }  // namespace
 
 SeenPhotons WithoutHidden(const PhotonMap& map, const PhotonQuery& query,
                           const PhotonNeighbourhood& around, const Walls& walls, Arena* arena) {
   constexpr std::size_t kTried = 4;
-  SeenPhotons seen{around, false};
+  constexpr Real kLeastShare = Real(.5);
+  SeenPhotons seen{around, {}, false};
   if (!walls.Exist()) return seen;
   const View view(map, query, walls);
-  const auto before = In(Layer::Before, view, around, arena);
-  if (before.empty()) return seen;
-  const std::size_t tried = std::min(before.size(), kTried);
-  for (std::size_t i = 0; i < tried && !seen.isBesideWall; ++i)
-    seen.isBesideWall = view.Hides(before[i * before.size() / tried]);
-  if (seen.isBesideWall) {
-    seen.around = Only(around, arena, [&](std::uint32_t photon) {
-      return view.LayerOf(photon) == Layer::Behind || !view.Hides(photon);
-    });
-  } else {
-    const std::uint32_t highest = *std::max_element(
-        before.begin(), before.end(),
-        [&](std::uint32_t a, std::uint32_t b) { return view.Sine2(a) < view.Sine2(b); });
-    seen.isBesideWall = view.HasGroundBehind(highest, std::sqrt(around.radius2));
-  }
+  seen.before = Only(around, arena, [&](std::uint32_t photon) {
+                  return view.LayerOf(photon) == Layer::Before;
+                }).photons;
+  const std::size_t count = seen.before.size(), tried = std::min(count, kTried);
+  for (std::size_t i = 0; i < tried && !seen.areSomeHidden; ++i)
+    seen.areSomeHidden = view.Hides(seen.before[i * count / tried]);
+  if (!seen.areSomeHidden) return seen;
+  seen.around = Only(around, arena, [&](std::uint32_t photon) {
+    return view.LayerOf(photon) == Layer::Behind || !view.Hides(photon);
+  });
+  const Real share = Real(seen.around.photons.size()) / Real(around.photons.size());
+  seen.around.share *= std::max(share, kLeastShare);
   return seen;
 }
 
@@ -116,18 +113,28 @@ PhotonNeighbourhood ProbablySeen(const PhotonMap& map, const PhotonQuery& query,
   if (!walls.Exist() || around.photons.empty()) return around;
   const View view(map, query, walls);
   RandomStream random(KeyOf(around));
-  const auto isHidden = [&](Layer layer) {
-    const auto photons = In(layer, view, around, arena);
-    if (photons.empty()) return false;
+  const auto hidesOneOf = [&](std::span<const std::uint32_t> photons) {
     const auto chosen = std::size_t(random.Uniform() * Real(photons.size()));
     return view.Hides(photons[std::min(chosen, photons.size() - 1)]);
   };
-  if (!isHidden(Layer::Before)) return around;
-  const bool isPlaneHidden = isHidden(Layer::On);
-  return Only(around, arena, [&](std::uint32_t photon) {
-    const Layer layer = view.LayerOf(photon);
-    return layer == Layer::Behind || (layer == Layer::On && !isPlaneHidden);
-  });
+  const auto before = Only(
+      around, arena, [&](std::uint32_t photon) { return view.LayerOf(photon) == Layer::Before; });
+  if (before.photons.empty() || !hidesOneOf(before.photons)) return around;
+  const auto tested = Only(
+      around, arena, [&](std::uint32_t photon) { return view.LayerOf(photon) != Layer::Behind; });
+  if (!hidesOneOf(tested.photons) || !hidesOneOf(tested.photons)) return around;
+  return Only(around, arena,
+              [&](std::uint32_t photon) { return view.LayerOf(photon) == Layer::Behind; });
+}
+
+bool IsBesideWall(const PhotonMap& map, const PhotonQuery& query, const SeenPhotons& seen,
+                  const Walls& walls) {
+  if (seen.before.empty()) return false;
+  const View view(map, query, walls);
+  const std::uint32_t highest = *std::max_element(
+      seen.before.begin(), seen.before.end(),
+      [&](std::uint32_t a, std::uint32_t b) { return view.Sine2(a) < view.Sine2(b); });
+  return seen.areSomeHidden || view.HasGroundBehind(highest, std::sqrt(seen.around.radius2));
 }
 
 }  // namespace exphoton

@@ -3,8 +3,12 @@
 // leak through walls. Only photons on or before the tangent plane can be hidden. Those behind it
 // lie round the edge of a solid, and stand for the part of the disk that extends over the edge.
 // Most points have no wall in their disk, so the others are only tested where a photon before the
-// plane is hidden.
+// plane is hidden. Small things hide photons too, whose light is alike on both sides. So hidden
+// photons are only left out as far as they outnumber the others.
 #pragma once
+
+#include <cstdint>
+#include <span>
 
 #include "core/base/arena.h"
 #include "integrators/photon/maps/photon_map.h"
@@ -12,23 +16,29 @@
 
 namespace exphoton {
 
-// The photons of an estimate that its point sees.
 struct SeenPhotons {
-  PhotonNeighbourhood around;  // radius2 is the one of all photons
-  bool isBesideWall = false;   // a wall stands in the disk, and the surface goes on behind it
+  PhotonNeighbourhood around;             // radius2 is the one of all photons
+  std::span<const std::uint32_t> before;  // photons before the plane, hidden or not; in the arena
+  bool areSomeHidden = false;
 };
 
-// Tests a few photons before the plane, and all photons if one of these is hidden. The photon at
-// the largest angle over the plane may lie on a wall that hides nothing because its other side is
-// dark.
+// Returns the photons that the point sees. Tests a few photons before the plane, and all photons if
+// one of these is hidden. Hidden photons count like the seen ones, up to the same number: `share`
+// of the result is the share of the seen photons, but at least a half.
 SeenPhotons WithoutHidden(const PhotonMap& map, const PhotonQuery& query,
                           const PhotonNeighbourhood& around, const Walls& walls, Arena* arena);
 
-// Tests one photon before the plane, chosen at random by the point. If it is hidden, all photons
-// before the plane are left out, so the mean over many points counts the right share of them. The
-// photons on the plane are then tested in the same way. This takes at most two rays.
+// Tests one photon before the plane, chosen at random by the point. If it is hidden, tests two of
+// the photons before and on the plane, and leaves all of these out if both are hidden. If a share h
+// of all layers is hidden, the light of a share 1 - h^3 counts in the mean over many points.
 PhotonNeighbourhood ProbablySeen(const PhotonMap& map, const PhotonQuery& query,
                                  const PhotonNeighbourhood& around, const Walls& walls,
                                  Arena* arena);
+
+// Returns whether a wall stands in the disk: some photons are hidden, or the surface of the point
+// goes on behind the photon at the largest angle over the plane. A wall hides nothing from a bright
+// point whose other side is dark.
+bool IsBesideWall(const PhotonMap& map, const PhotonQuery& query, const SeenPhotons& seen,
+                  const Walls& walls);
 
 }  // namespace exphoton

@@ -81,17 +81,17 @@ PhotonMap::Irradiance PhotonMap::EstimateIrradiance(const PhotonQuery& query, Ar
     if (distance2 > disk2) continue;
     largest2 = std::max(largest2, disk2);
     const Real weight = WeightOf(query, i);
-    const Spectrum part = Alpha(i) * (weight * kInvPi / (Real(paths_) * disk2));
+    const Spectrum part = Alpha(i) * (weight * kInvPi / (Real(paths_) * disk2 * around.share));
     const bool isOwn = !(distance2 > 0);
     (isOwn ? found.own : found.e) += part;
     (isOwn ? found.signedOwn : found.signedE) += part * Sign(i);
     if (isOwn) found.ownDisk2 = double(disk2), ++owns;
   }
+  found.isBesideWall = IsBesideWall(*this, query, seen, walls);
   arena->Rewind(mark);
   const Real radius2 = around.radius2, ofDisks2 = largest2 / Real(kOwnDisk);
   found.density = double(around.photons.size() - owns) / double(radius2) * query.diskArea;
   found.radius = std::sqrt(largest2 > 0 ? std::min(radius2, ofDisks2) : radius2);
-  found.isBesideWall = seen.isBesideWall;
   return found;
 }
 

@@ -41,7 +41,9 @@ struct PhotonNeighbourhood {
   std::span<const Real> distance2;  // one per photon
   Real radius2 = 0;                 // of the estimation disk; > 0 if there are photons
   // With a diskArea below 1, photons beyond the disk are in the list too.
-  Real exposure = 1;  // the part of the exposure in which the photons arrived (timed_search.h)
+  // The photons stand for the light of more of them: they arrived in this part of the exposure
+  // (timed_search.h), or are this part of all photons that count (hidden_photons.h).
+  Real share = 1;
 };
 
 class PhotonMap {

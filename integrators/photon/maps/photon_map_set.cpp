@@ -160,7 +160,7 @@ Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,
       (Dot(wi, n) > 0 ? front : back).Add(flux, sign);
   }
   const auto scattered = [&](Spectrum SignedSum::*sum) {
-    const Real paths = Real(map.Paths()) * around.exposure;
+    const Real paths = Real(map.Paths()) * around.share;
     if (!isDiffuse) return glossy.*sum / paths;
     Spectrum both = front.*sum * bsdf.Rho(lobes & LobeSet::NonSpecularReflection) * kInvPi;
     if (!isOneSided)

@@ -7,6 +7,16 @@ namespace exphoton {
 
 Walls::Walls(const Scene& scene) {
   if (!scene.Primitives().MovesWithin({-kInfinity, kInfinity})) scene_ = &scene;
+  hasGlass_ = Intersects(scene.Primitives().PossibleLobes(), LobeSet::SpecularTransmission);
+}
+
+// Whatever lies behind a pane counts as seen.
+bool Walls::Blocks(const Ray& ray) const {
+  if (!scene_->Occluded(ray)) return false;
+  if (!hasGlass_) return true;
+  const auto hit = scene_->IntersectPoint(ray);
+  return !hit || !hit->material ||
+         !Intersects(hit->material->PossibleLobes(), LobeSet::SpecularTransmission);
 }
 
 bool Walls::AreBetween(const Place& a, const Place& b) const {
@@ -19,7 +29,7 @@ bool Walls::AreBetween(const Place& a, const Place& b) const {
   ray.o = a.p + a.free * lift;
   ray.d = b.p + b.free * lift - ray.o;
   ray.tMax = kEnd;
-  return scene_->Occluded(ray);
+  return Blocks(ray);
 }
 
 bool Walls::SurfaceContinues(const Place& from, const Vector3& along, Real distance) const {

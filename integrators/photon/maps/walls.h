@@ -9,9 +9,13 @@
 namespace exphoton {
 
 class Scene;
+struct Ray;
 
+// Surfaces that transmit specularly are no walls: light is alike on both sides of a pane.
 class Walls {
  public:
+  static constexpr Real kLift = Real(.05);
+
   // A point on a surface, and the unit direction into the free space before it: the normal on the
   // side in question, or the direction from which a photon arrived.
   struct Place {
@@ -24,6 +28,7 @@ class Walls {
   // one pose (rest_pose.h), in which shapes need not have been together. Then there are no walls.
   explicit Walls(const Scene& scene);
 
+  // The other functions need walls that exist.
   bool Exist() const { return scene_ != nullptr; }
   // Returns whether a surface blocks the segment between the places. Both ends move into the free
   // space by kLift times the distance, so that a curved surface does not come between its points.
@@ -34,9 +39,10 @@ class Walls {
   bool SurfaceContinues(const Place& from, const Vector3& along, Real distance) const;
 
  private:
-  static constexpr Real kLift = Real(.05);
+  bool Blocks(const Ray& ray) const;
 
   const Scene* scene_ = nullptr;
+  bool hasGlass_ = false;
 };
 
 }  // namespace exphoton

@@ -105,14 +105,17 @@ TEST(PhotonTargets, HaveRadiancePhotonsToGatherFromOrToSee) {
   EXPECT_EQ(fraction(), 0);
 }
 
-TEST(PhotonBudget, IsExplainedInFourLines) {
+TEST(PhotonBudget, IsExplainedInFiveLines) {
   const LoadedScene scene = Load(kBudgetLamp + kMatte);
   PhotonSettings settings = Numbers();
   const auto lines = [&] { return ExplainBudget(settings, *scene.setup->scene); };
-  EXPECT_EQ(lines(), (std::vector<std::string>{"photons       20 direct, 30 indirect",
-                                               "gather        32 rays, BSDF only",
-                                               "memory        about 1 MiB for the photon maps",
-                                               "emission      not guided (guideemission false)"}));
+  EXPECT_EQ(lines(), (std::vector<std::string>{
+                         "photons       20 direct, 30 indirect", "gather        32 rays, BSDF only",
+                         "memory        about 1 MiB for the photon maps",
+                         "emission      not guided (guideemission false)",
+                         "walls         hide no photons: hidephotons is off"}));
+  settings.hidePhotons = true;
+  EXPECT_EQ(lines()[4], "walls         hide photons from points behind them");
   settings.guideEmission = true;
   EXPECT_EQ(lines()[3], "emission      guided for indirect photons, if few paths leave any");
   settings.photonRoulette = PhotonRoulette::Constant;

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "tests/support/test_scene.h"
 
@@ -39,6 +39,12 @@ TEST(Walls, AreBetweenTheirSides) {
   EXPECT_FALSE(walls.AreBetween(here, {here.p, kRight})) << "the same place";
 }
 
+TEST(Walls, AreNotOfGlass) {
+  const LoadedScene loaded = SceneOf(kFloor + "Material \"glass\"\n" + kWall);
+  const Walls walls(*loaded.setup->scene);
+  EXPECT_FALSE(walls.AreBetween({{Real(.2), 0, 0}, kUp}, {{Real(-.1), 0, 0}, kLeft}));
+}
+
 TEST(Walls, SeeSurfacesInTheTangentPlane) {
   const LoadedScene loaded = SceneOf(kFloor + kWall);
   const Walls walls(*loaded.setup->scene);
@@ -55,14 +61,15 @@ TEST(Walls, DoNotExistWhereShapesMove) {
   EXPECT_FALSE(Walls().Exist());
 }
 
-// Photons in a row across the wall, on the floor and on both sides of the wall. Without isRightLit,
-// only the left side has photons.
+// Photons in a row across the wall, on the floor and on both sides of the wall: 20 on the left, and
+// up to 20 on the right.
 struct Row {
   LoadedScene loaded;
+  Walls walls;
   PhotonMap map;
   Arena arena;
 
-  Row(const std::string& world, bool isRightLit) : loaded(SceneOf(world)) {
+  Row(const std::string& world, int right) : loaded(SceneOf(world)), walls(*loaded.setup->scene) {
     PhotonBuffer buffer;
     buffer.paths = 1;
     const auto add = [&](Real x, Real z, const Vector3& wi) {
@@ -73,7 +80,7 @@ struct Row {
       const Real at = Real(i) / 10;
       add(-at, 0, kLeft);
       add(0, at / 3, kLeft);
-      if (isRightLit) add(at, 0, kRight), add(0, at / 3, kRight);
+      if (2 * i <= right) add(at, 0, kRight), add(0, at / 3, kRight);
     }
     ThreadPool threads(1);
     map = PhotonMap(std::move(buffer), threads);
@@ -81,34 +88,43 @@ struct Row {
 
   PhotonQuery Query(Real x) const { return {{x, 0, 0}, Normal3(kUp), 100, 2, true}; }
   PhotonNeighbourhood Around(Real x) { return map.Find(Query(x), &arena); }
-  SeenPhotons SeenFrom(Real x) {
-    return WithoutHidden(map, Query(x), Around(x), Walls(*loaded.setup->scene), &arena);
-  }
+  SeenPhotons SeenFrom(Real x) { return WithoutHidden(map, Query(x), Around(x), walls, &arena); }
   PhotonNeighbourhood ProbablySeenFrom(Real x) {
-    return ProbablySeen(map, Query(x), Around(x), Walls(*loaded.setup->scene), &arena);
+    return ProbablySeen(map, Query(x), Around(x), walls, &arena);
   }
+  bool IsBeside(Real x) { return IsBesideWall(map, Query(x), SeenFrom(x), walls); }
 };
 
-TEST(HiddenPhotons, DoNotCountBehindAWall) {
-  Row row(kFloor + kWall, true);
+// Equally many photons are on both sides, as with small things, and none is lost.
+TEST(HiddenPhotons, CountLikeSeenOnesUpToTheirNumber) {
+  Row row(kFloor + kWall, 20);
   const SeenPhotons seen = row.SeenFrom(Real(.35));
-  EXPECT_TRUE(seen.isBesideWall);
+  EXPECT_TRUE(seen.areSomeHidden);
   EXPECT_EQ(row.Around(Real(.35)).photons.size(), 40u);
   EXPECT_EQ(seen.around.photons.size(), 20u);
   EXPECT_EQ(seen.around.distance2.size(), 20u);
   EXPECT_EQ(seen.around.radius2, row.Around(Real(.35)).radius2);
+  EXPECT_EQ(seen.around.share, Real(.5));
   for (const std::uint32_t photon : seen.around.photons) EXPECT_GT(row.map.Direction(photon).x, 0);
 }
 
+TEST(HiddenPhotons, CountNoMoreThanSeenOnes) {
+  Row row(kFloor + kWall, 4);
+  EXPECT_EQ(row.Around(Real(.15)).photons.size(), 24u);
+  EXPECT_EQ(row.SeenFrom(Real(.15)).around.photons.size(), 4u);
+  EXPECT_EQ(row.SeenFrom(Real(.15)).around.share, Real(.5)) << "4 of 8 photons, and not of 24";
+}
+
 TEST(HiddenPhotons, CountWithoutAWall) {
-  Row row(kFloor, true);
+  Row row(kFloor, 20);
   EXPECT_EQ(row.SeenFrom(Real(.35)).around.photons.size(), 40u);
+  EXPECT_EQ(row.SeenFrom(Real(.35)).around.share, 1);
   EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 40u);
 }
 
 TEST(HiddenPhotons, LeaveNothingOnADarkSide) {
-  Row row(kFloor + kWall, false);
-  EXPECT_TRUE(row.SeenFrom(Real(.35)).isBesideWall);
+  Row row(kFloor + kWall, 0);
+  EXPECT_TRUE(row.SeenFrom(Real(.35)).areSomeHidden);
   EXPECT_EQ(row.SeenFrom(Real(.35)).around.photons.size(), 0u);
   EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 0u);
 }
@@ -140,26 +156,46 @@ TEST(HiddenPhotons, CountRoundTheEdgeOfASolid) {
 // From the lit side of the wall nothing is hidden, but the floor goes on behind the wall, so points
 // there must not read what is computed here.
 TEST(HiddenPhotons, ShowThatTheFloorGoesOnBehindAWall) {
-  Row row(kFloor + kWall, false);
-  EXPECT_TRUE(row.SeenFrom(Real(-.35)).isBesideWall);
-  EXPECT_EQ(row.SeenFrom(Real(-.35)).around.photons.size(), 20u);
-  Row corner(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + kWall, false);  // the floor ends at the wall
-  EXPECT_FALSE(corner.SeenFrom(Real(-.35)).isBesideWall);
-  Row open(kFloor, false);
-  EXPECT_EQ(open.SeenFrom(Real(-.35)).around.photons.size(), 20u);
+  Row row(kFloor + kWall, 0);
+  EXPECT_TRUE(row.IsBeside(Real(-.35)));
+  EXPECT_FALSE(row.SeenFrom(Real(-.35)).areSomeHidden);
+  Row corner(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + kWall, 0);  // the floor ends at the wall
+  EXPECT_FALSE(corner.IsBeside(Real(-.35)));
 }
 
-// Half of the photons before the plane are hidden, so half of the points leave them all out.
-TEST(HiddenPhotons, AreLeftOutInTheMeanOverManyPoints) {
-  Row row(kFloor + kWall, true);
-  int before = 0, points = 0;
-  for (Real x = Real(.2); x < Real(.4); x += Real(.001), ++points) {
-    const auto seen = row.ProbablySeenFrom(x).photons;
-    before += int(std::count_if(seen.begin(), seen.end(), [&](std::uint32_t photon) {
-      return row.map.Position(photon).z > 0;
-    }));
+// Half of each layer is hidden, so an eighth of the points leave the photons out.
+TEST(HiddenPhotons, AreLeftOutAtSomeOfManyPoints) {
+  Row row(kFloor + kWall, 20);
+  int all = 0, points = 0;
+  for (Real x = Real(.2); x < Real(.4); x += Real(.0005), ++points) {
+    const std::size_t size = row.ProbablySeenFrom(x).photons.size();
+    EXPECT_TRUE(size == 40 || size == 0) << size;
+    all += size == 40 ? 1 : 0;
   }
-  EXPECT_NEAR(double(before) / points, 10, 2.5);  // of 20; a standard error of .7
+  EXPECT_NEAR(double(all) / points, .875, .055);  // 400 points: a standard error of .017
+}
+
+// A sheet that transmits sees photons of both sides. Its back has a tangent plane with
+// the opposite normal, also where the sheet bends towards the viewer.
+TEST(HiddenPhotons, AreNotThoseAtTheBackOfABowl) {
+  const LoadedScene loaded =
+      SceneOf("Material \"translucent\"\nShape \"sphere\" \"float radius\" 1 \"float zmax\" 0\n");
+  PhotonBuffer buffer;
+  buffer.paths = 1;
+  for (int i = 1; i <= 10; ++i) {
+    const Real angle = Real(i) / 10, s = std::sin(angle), c = std::cos(angle);
+    const PhotonRecord record({{s, 0, -c}, Vector3{s, 0, -c}, Spectrum(1)});
+    buffer.photons.Append({&record, 1});
+  }
+  ThreadPool threads(1);
+  const PhotonMap map(std::move(buffer), threads);
+  Arena arena;
+  const PhotonQuery query{{0, 0, -1}, Normal3(kUp), 100, 2, false};
+  const PhotonNeighbourhood around = map.Find(query, &arena);
+  ASSERT_EQ(around.photons.size(), 10u);
+  const Walls walls(*loaded.setup->scene);
+  EXPECT_EQ(WithoutHidden(map, query, around, walls, &arena).around.photons.size(), 10u);
+  EXPECT_EQ(ProbablySeen(map, query, around, walls, &arena).photons.size(), 10u);
 }
 
 }  // namespace

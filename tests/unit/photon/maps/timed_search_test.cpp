@@ -38,7 +38,7 @@ double LightAt(Real time, const PhotonMap& map) {
   Arena arena;
   const PhotonNeighbourhood around = FindAt(time, map, kQuery, kInfinity, &arena);
   const double area = double(kPi * around.radius2);
-  return double(around.photons.size()) / (area * double(around.exposure)) / (kPhotons / 4.);
+  return double(around.photons.size()) / (area * double(around.share)) / (kPhotons / 4.);
 }
 
 TEST(TimedSearch, CountsAllPhotonsOfEvenLight) {
@@ -47,7 +47,7 @@ TEST(TimedSearch, CountsAllPhotonsOfEvenLight) {
   const PhotonNeighbourhood all = map.Find(kQuery, &arena);
   for (const Real time : {Real(0), Real(.3), Real(1)}) {
     const PhotonNeighbourhood found = FindAt(time, map, kQuery, kInfinity, &arena);
-    EXPECT_EQ(found.exposure, 1);
+    EXPECT_EQ(found.share, 1);
     EXPECT_EQ(found.radius2, all.radius2);
     EXPECT_EQ(found.photons.size(), all.photons.size());
   }
@@ -91,8 +91,7 @@ TEST(TimedSearch, OfFewPhotonsHasFewerWindows) {
     PhotonQuery query = kQuery;
     query.k = k;
     const PhotonMap map = MapWith({0, 1}, [](Real u) { return u / 2; });
-    EXPECT_FLOAT_EQ(float(FindAt(Real(.25), map, query, kInfinity, &arena).exposure),
-                    float(exposure))
+    EXPECT_FLOAT_EQ(float(FindAt(Real(.25), map, query, kInfinity, &arena).share), float(exposure))
         << k;
   }
 }
