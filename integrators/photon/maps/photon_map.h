@@ -114,7 +114,7 @@ class PhotonMap {
     Real radius = 0;      // of Find, at most the one of k photons as dense as in the largest disk
     bool isBesideWall = false;  // a wall stands in the disk, and the surface goes on behind it
   };
-  // Photons behind `walls` do not count.
+  // `walls` hide photons (hidden_photons.h).
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena,
                                 const Walls& walls = Walls()) const;
 

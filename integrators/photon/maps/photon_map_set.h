@@ -23,7 +23,7 @@ std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buff
 
 // What becomes of photons that a wall hides from the point of an estimate (hidden_photons.h).
 enum class HiddenPhotons {
-  LeftOut,
+  LeftOut,           // as far as they outnumber the seen ones
   LeftOutInTheMean,  // over many points, with fewer rays
   Counted,           // for points that have no wall in their disks
 };
@@ -32,8 +32,8 @@ class PhotonMapSet {
  public:
   PhotonMapSet() = default;
   // Builds the maps from the buffers, which it consumes, and chooses the radii if the settings give
-  // none. sceneRadius: radius of the bounding sphere of the scene. Photons behind `walls` do not
-  // count.
+  // none. sceneRadius: radius of the bounding sphere of the scene. `walls` hide photons
+  // (hidden_photons.h).
   PhotonMapSet(PhotonPassResult* result, const PhotonSettings& settings, Real sceneRadius,
                PreprocessContext& context, const Walls& walls = Walls());
 
