@@ -262,7 +262,7 @@ Spectrum GatherRay::ReadMaps(const Segment& segment, Spectrum* signedRadiance) c
   }
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = Shade(segment);
-  // A short ray knows a radiance photon near its hit, and so whether a wall stands there.
+  // The radiance photon near the hit of a short ray has found the walls there.
   const HiddenPhotons hidden = segment.entry && !segment.entry->isBesideWall
                                    ? HiddenPhotons::Counted
                                    : HiddenPhotons::LeftOutInTheMean;

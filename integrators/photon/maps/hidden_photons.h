@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Estimates of density leave out photons that a wall hides from their point, so that light does not
 // leak through walls. Only photons on or before the tangent plane can be hidden. Those behind it
-// lie round the edge of a solid, and stand for the part of the disk that extends over the edge.
+// lie round the edge of a solid, and replace the part of the disk that extends over the edge.
 // Most points have no wall in their disk, so the others are only tested where a photon before the
-// plane is hidden. Small things hide photons too, whose light is alike on both sides. So hidden
-// photons are only left out as far as they outnumber the others.
+// plane is hidden. Small objects hide photons too, but light is alike on both of their sides. So
+// hidden photons count like the seen ones, up to the same number.
 #pragma once
 
 #include <cstdint>
@@ -35,9 +35,9 @@ PhotonNeighbourhood ProbablySeen(const PhotonMap& map, const PhotonQuery& query,
                                  const PhotonNeighbourhood& around, const Walls& walls,
                                  Arena* arena);
 
-// Returns whether a wall stands in the disk: some photons are hidden, or the surface of the point
-// goes on behind the photon at the largest angle over the plane. A wall hides nothing from a bright
-// point whose other side is dark.
+// Returns whether a wall crosses the disk: some photons are hidden, or the surface of the point
+// goes on behind the photon at the largest angle over the plane. The second test finds walls whose
+// other side is dark, because no photons are hidden there.
 bool IsBesideWall(const PhotonMap& map, const PhotonQuery& query, const SeenPhotons& seen,
                   const Walls& walls);
 

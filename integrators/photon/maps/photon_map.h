@@ -41,8 +41,8 @@ struct PhotonNeighbourhood {
   std::span<const Real> distance2;  // one per photon
   Real radius2 = 0;                 // of the estimation disk; > 0 if there are photons
   // With a diskArea below 1, photons beyond the disk are in the list too.
-  // The photons stand for the light of more of them: they arrived in this part of the exposure
-  // (timed_search.h), or are this part of all photons that count (hidden_photons.h).
+  // The ratio of these photons to all photons that count. It is the part of the exposure in which
+  // they arrived (timed_search.h), times the share of the seen photons (hidden_photons.h).
   Real share = 1;
 };
 
@@ -112,7 +112,7 @@ class PhotonMap {
     double ownDisk2 = 0;  // squared radius of their disks
     double density = 0;   // other photons in a disk whose squared radius is 1
     Real radius = 0;      // of Find, at most the one of k photons as dense as in the largest disk
-    bool isBesideWall = false;  // a wall stands in the disk, and the surface goes on behind it
+    bool isBesideWall = false;  // IsBesideWall in hidden_photons.h
   };
   // `walls` hide photons (hidden_photons.h).
   Irradiance EstimateIrradiance(const PhotonQuery& query, Arena* arena,

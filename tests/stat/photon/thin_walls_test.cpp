@@ -23,7 +23,7 @@ std::string Lamp(const std::string& place, const std::string& radiance) {
 }
 
 // A closed box from -2 to 2, 2 high, with a lamp on its left side. `more` is added to the world.
-// The camera stands in the left half and looks to the left.
+// The camera is in the left half and looks to the left.
 std::string ThinRoom(const std::string& more, const std::string& parameters = "") {
   return "LookAt -.3 1 1.7 -1.2 .7 -1 0 1 0\nCamera \"perspective\" \"float fov\" [70]\n"
          "Film \"image\" \"integer xresolution\" [16] \"integer yresolution\" [12]\n"
@@ -44,13 +44,12 @@ SeedEstimate LightOf(const std::string& scene) {
   });
 }
 
-// The box stands on a plane that the sun lights, beside its walls and on its roof. The ratio was
-// 1.16 when photons on the roof and the plane counted on the walls.
+// The sun lights the roof, and a plane below the box. The light inside was 1.16 times the light
+// without a sun when photons on the roof counted on the walls.
 TEST(ThinWalls, KeepTheSunOut) {
   const std::string sun =
-      "LightSource \"distant\" \"color L\" [100 100 100] \"point from\" [-1 2 1.3] \"point to\" [0 "
-      "0 "
-      "0]\n";
+      "LightSource \"distant\" \"color L\" [100 100 100]\n"
+      "\"point from\" [-1 2 1.3] \"point to\" [0 0 0]\n";
   const std::string ground = Quad("-8 -.5 -8  8 -.5 -8  8 -.5 8  -8 -.5 8");
   const SeedEstimate dark = LightOf(ThinRoom(ground)), sunny = LightOf(ThinRoom(ground + sun));
   EXPECT_TRUE(IsWithin(.03, sunny, dark.mean));
@@ -58,7 +57,8 @@ TEST(ThinWalls, KeepTheSunOut) {
 
 const std::string kPartition = Quad("0 0 -2  0 2 -2  0 2 2  0 0 2");
 
-// The bright half has 100 times the light. The ratio was 1.15 when photons of its floor and its
+// The bright half has 100 times the light. The ratio of
+// the two means was 1.15 when photons of its floor and its
 // side of the partition counted in the dark half.
 TEST(ThinWalls, KeepABrightNeighbourOut) {
   const SeedEstimate alone = LightOf(ThinRoom(kPartition + Lamp("1 1.5 .5", "10")));

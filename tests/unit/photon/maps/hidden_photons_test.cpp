@@ -129,8 +129,8 @@ TEST(HiddenPhotons, LeaveNothingOnADarkSide) {
   EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 0u);
 }
 
-// A photon on the top of a block counts at its side, although the block lies between them. Another
-// photon stands behind a screen before the block, so all photons are tested.
+// A photon on the top of a block counts at its side, although the block lies between them. A second
+// photon lies behind a screen before the block. It is hidden, so all photons are tested.
 TEST(HiddenPhotons, CountRoundTheEdgeOfASolid) {
   const LoadedScene loaded =
       SceneOf(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + Mesh("0 -4 -4  0 4 -4  0 4 0  0 -4 0") +
