@@ -20,7 +20,7 @@
 
 namespace exphoton {
 
-inline constexpr std::uint32_t kStateVersion = 11;
+inline constexpr std::uint32_t kStateVersion = 12;
 
 // Writes a file that appears under its name only with Commit. Errors throw Error(File).
 class StateWriter {

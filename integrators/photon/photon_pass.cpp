@@ -51,9 +51,12 @@ DistantLightTargeting ChooseTargeting(const PhotonSettings& settings, const Scen
   // Photons that start towards visible points would miss media beside them, which scatter light
   // towards the camera.
   if (media.Scatter()) return refuse(" in a scene whose media scatter light");
-  DistantLightTargeting targeting(
-      VisiblePoints(scene, *context.camera, context.resolution, context.seed),
-      BoundingSphere(scene.WorldBounds()), kMinPhotons / LeastStableTarget(targets));
+  std::vector<Point3> wanted;
+  for (const VisiblePoint& point :
+       VisiblePoints(scene, *context.camera, context.resolution, context.seed))
+    wanted.push_back(point.p);
+  DistantLightTargeting targeting(std::move(wanted), BoundingSphere(scene.WorldBounds()),
+                                  kMinPhotons / LeastStableTarget(targets));
   if (targeting.IsEmpty()) return refuse(": the camera sees too few points of the scene");
   const bool isWorthwhile = targeting.Gain() >= kWorthwhileGain;
   if (settings.photonTargeting == PhotonTargeting::Off) {

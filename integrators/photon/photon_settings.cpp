@@ -30,7 +30,9 @@ const ParamTable<PhotonSettings>& PhotonParameters() {
             "are 0")
           .Range(0, 1e9)
           .DividedByQuick(10),
-      Param("indirectphotons", &S::indirectPhotons, "photons wanted in the indirect map")
+      Param("indirectphotons", &S::indirectPhotons,
+            "photons wanted in the indirect map; fewer where emission is guided and little of the "
+            "light is indirect")
           .Basic()
           .Range(0, 1e9)
           .DividedByQuick(10),

@@ -109,6 +109,26 @@ void ReportEnoughCaustics(const PhotonPassResult& result, const PhotonSettings& 
       {}, "without \"causticphotons\" the number follows from the light of the caustics");
 }
 
+// Reports that the indirect map is smaller than wanted, and why.
+void ReportEnoughIndirect(const PhotonPassResult& result, const PhotonTargets& targets,
+                          PreprocessContext& context) {
+  if (result.enoughIndirect == 0) return;
+  context.statistics.SetCounter("photons/indirect wanted", double(targets[PhotonKind::Indirect]),
+                                "photons that the indirect map would have if more of the light "
+                                "were indirect");
+  context.log.Verbose(Text("indirect map: ", result.enoughIndirect, " instead of ",
+                           targets[PhotonKind::Indirect],
+                           " photons, because little of the light is indirect"));
+}
+
+// Returns the number of photons that the map should have.
+std::int64_t TargetOf(PhotonKind kind, const PhotonPassResult& result, const PhotonTargets& targets,
+                      const PhotonSettings& settings) {
+  if (kind == PhotonKind::Indirect && result.enoughIndirect > 0) return result.enoughIndirect;
+  const bool isChosen = kind == PhotonKind::Caustic && !settings.causticPhotons;
+  return isChosen && result.enoughCaustics > 0 ? result.enoughCaustics : targets[kind];
+}
+
 // Reports what the proofs of CausticLights saved.
 void ReportProofs(const PhotonPassResult& result, PreprocessContext& context) {
   if (result.outOfReach == 0) return;
@@ -151,6 +171,7 @@ void NoticeMissingTargeting(const DistantLightTargeting& targeting, Log& log) {
 void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targets,
                       const PhotonSettings& settings, PreprocessContext& context) {
   ReportEnoughCaustics(result, settings, context);
+  ReportEnoughIndirect(result, targets, context);
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic, PhotonKind::Indirect}) {
     if (targets[kind] == 0) continue;
     const PhotonBuffer& buffer = result[kind];
@@ -159,9 +180,7 @@ void ReportPhotonPass(const PhotonPassResult& result, const PhotonTargets& targe
                                     "photons in the " + name + " map, of all passes together");
     context.statistics.AddToCounter("photons/" + name + " paths", double(buffer.paths),
                                     "paths from the lights that the " + name + " map counts");
-    const bool isLimited =
-        kind == PhotonKind::Caustic && result.enoughCaustics > 0 && !settings.causticPhotons;
-    const std::int64_t target = isLimited ? result.enoughCaustics : targets[kind];
+    const std::int64_t target = TargetOf(kind, result, targets, settings);
     if (std::int64_t(buffer.photons.Size()) < target)
       context.log.Notice(Text(name, " map: ", buffer.photons.Size(), " of ", target,
                               " photons after ", buffer.paths, " paths"));

@@ -63,6 +63,9 @@ struct PhotonPassResult {
   std::int64_t trainingPaths = 0;  // of these, paths that only trained the guide
   // Caustic photons that resolve caustics finely enough (Pass::LimitCaustics); 0: not known.
   std::int64_t enoughCaustics = 0;
+  // Indirect photons that are enough, because little of the light is indirect (eq. 7e); 0: all that
+  // are wanted.
+  std::int64_t enoughIndirect = 0;
   // Paths that were counted but not traced, because only the caustic map was open and the first ray
   // missed all specular surfaces.
   std::int64_t skipped = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "integrators/photon/shooting/chunk_memo.h"
+#include "integrators/photon/shooting/emission/indirect_share.h"
 #include "integrators/photon/shooting/photon_chunk.h"
 #include "integrators/photon/shooting/photon_path.h"
 
@@ -23,6 +24,7 @@ class PhotonTracer::Pass {
   Pass(const PhotonTracer& tracer, const PhotonTargets& targets, PreprocessContext& context)
       : tracer_(tracer),
         targets_(targets),
+        wantedIndirect_(targets[PhotonKind::Indirect]),
         context_(context),
         workers_(std::size_t(context.threads.Count())) {
     for (std::size_t m = 0; m < kPhotonKindCount; ++m) batch_.open[m] = targets.counts[m] > 0;
@@ -45,6 +47,7 @@ class PhotonTracer::Pass {
   static constexpr std::size_t kUsualSamples = std::size_t(1) << 17;
   static constexpr std::size_t kMaxSamples = std::size_t(1) << 19;
   static constexpr std::size_t kCaustic = std::size_t(PhotonKind::Caustic);
+  static constexpr std::size_t kIndirect = std::size_t(PhotonKind::Indirect);
 
   void Trace(std::int64_t paths);
   void TraceOrTake(std::int64_t firstPath, Worker* worker, PhotonChunk* chunk);
@@ -74,10 +77,13 @@ class PhotonTracer::Pass {
   std::int64_t KeptPaths(PhotonKind kind, std::size_t first) const;
   EmissionGuide Learn(PhotonKind kind) const;
   void Discard(PhotonKind kind);
+  std::unique_ptr<IndirectShare> MeasureOtherLight();
+  void LimitIndirect(const IndirectShare& share, std::int64_t trainedPaths);
   void LimitCaustics(std::int64_t wanted, std::int64_t trainedPaths);
 
   const PhotonTracer& tracer_;
   PhotonTargets targets_;
+  std::int64_t wantedIndirect_;  // before LimitIndirect
   PreprocessContext& context_;
   PhotonPassResult result_;
   PhotonBatch batch_;

@@ -48,6 +48,10 @@ class VisiblePointTracer {
   RandomStream random_;
 };
 
+VisiblePoint PointOf(const ShadingPoint& point) {
+  return {point.surface.p, FaceForward(point.bsdf.Ng(), point.Wo())};
+}
+
 CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed, bool isMoving) {
   const Point2 film = ScrambledSobol2(i, HashKey({seed, kFilmKey}));
   CameraSample sample;
@@ -59,20 +63,20 @@ CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed, bool is
 
 }  // namespace
 
-std::vector<Point3> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
-                                  std::uint64_t seed) {
+std::vector<VisiblePoint> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
+                                        std::uint64_t seed) {
   const bool isMoving = scene.Features().Needs(Feature::Motion);
-  std::vector<Point3> points;
+  std::vector<VisiblePoint> points;
   Arena arena;
   for (std::uint32_t i = 0; i < kCameraRays; ++i) {
     arena.Reset();
     VisiblePointTracer tracer(scene, &arena, HashKey({seed, kStreamKey, i}));
     const auto seen = tracer.Follow(camera.GenerateRay(SampleOf(i, size, seed, isMoving), false));
     if (!seen) continue;
-    points.push_back(seen->surface.p);
+    points.push_back(PointOf(*seen));
     const auto onward = tracer.Scattered(*seen, LobeSet::NonSpecular);
     if (!onward) continue;
-    if (const auto gathered = tracer.Follow(*onward)) points.push_back(gathered->surface.p);
+    if (const auto gathered = tracer.Follow(*onward)) points.push_back(PointOf(*gathered));
   }
   return points;
 }

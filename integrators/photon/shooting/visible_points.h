@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // VisiblePoints samples points whose light reaches the camera: hits of camera rays, directly or
 // after specular bounces, and hits of one further bounce, where final gathering reads the maps.
-// DistantLightTargeting uses them. The result depends on scene, camera, film size and seed alone.
+// The result depends on scene, camera, film size and seed alone.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,13 @@
 
 namespace exphoton {
 
+struct VisiblePoint {
+  Point3 p;
+  Normal3 n;  // unit geometric normal, on the side that the ray came from
+};
+
 // Returns about one point of each kind per ray that hits. `size`: resolution of the full image.
-std::vector<Point3> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
-                                  std::uint64_t seed);
+std::vector<VisiblePoint> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
+                                        std::uint64_t seed);
 
 }  // namespace exphoton

@@ -23,7 +23,10 @@ std::vector<Point3> PointsOf(const std::string& world, std::uint64_t seed = 1) {
       "\"distant\"\n" +
       world + "WorldEnd\n");
   RenderSetup& setup = *loaded.setup;
-  return VisiblePoints(*setup.scene, *setup.camera, {40, 20}, seed);
+  std::vector<Point3> points;
+  for (const VisiblePoint& point : VisiblePoints(*setup.scene, *setup.camera, {40, 20}, seed))
+    points.push_back(point.p);
+  return points;
 }
 
 const std::string kWall =

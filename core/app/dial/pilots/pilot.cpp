@@ -277,7 +277,8 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
                      CounterOf(statistics, "photons/shot") >= double(roughPaths_);
   const auto photonsOf = [&](const std::string& map) {
     const double stored = CounterOf(statistics, "photons/" + map + " stored");
-    return PhotonsOf(setup, stored / std::max(picture.mapCount, 1), map);
+    const double wanted = CounterOf(statistics, "photons/" + map + " wanted");
+    return PhotonsOf(setup, wanted > 0 ? wanted : stored / std::max(picture.mapCount, 1), map);
   };
   const DialSettings& known = request.settings;
   if (picture.mapCount > 0 && !(known.indirectPhotons + known.causticPhotons > 0)) {
