@@ -262,12 +262,8 @@ Spectrum GatherRay::ReadMaps(const Segment& segment, Spectrum* signedRadiance) c
   }
   const Arena::Mark mark = context_.arena.GetMark();
   const ShadingPoint point = Shade(segment);
-  // The radiance photon near the hit of a short ray has found the walls there.
-  const HiddenPhotons hidden = segment.entry && !segment.entry->isBesideWall
-                                   ? HiddenPhotons::Counted
-                                   : HiddenPhotons::LeftOutInTheMean;
-  const Spectrum radiance =
-      maps_.Radiance(point, &context_.arena, mappedLobes_, signedRadiance, hidden);
+  const Spectrum radiance = maps_.Radiance(point, &context_.arena, mappedLobes_, signedRadiance,
+                                           HiddenPhotons::LeftOutInTheMean);
   context_.arena.Rewind(mark);
   return radiance;
 }

@@ -33,7 +33,10 @@ class View {
     return sine2 < -kOnPlane2 ? Layer::Behind : Layer::On;
   }
   bool Hides(std::uint32_t photon) const {
-    return walls_.AreBetween({p_, SideOf(photon)}, {map_.Position(photon), map_.Direction(photon)});
+    const Walls::Place here{p_, SideOf(photon)},
+        there{map_.Position(photon), map_.Direction(photon)};
+    if (LayerOf(photon) == Layer::Behind) return walls_.AreBetweenRoundAnEdge(here, there);
+    return walls_.AreBetween(here, there);
   }
   // Returns whether the surface of the point goes on, at this distance, behind the wall on which
   // the photon lies.
@@ -77,6 +80,16 @@ PhotonNeighbourhood Only(const PhotonNeighbourhood& around, Arena* arena, const 
   return some;
 }
 
+// Returns the photons that most often show a wall: those before the plane, or if there are none,
+// those behind it.
+std::span<const std::uint32_t> Suspects(const View& view, const PhotonNeighbourhood& around,
+                                        std::span<const std::uint32_t> before, Arena* arena) {
+  if (!before.empty()) return before;
+  return Only(around, arena,
+              [&](std::uint32_t photon) { return view.LayerOf(photon) == Layer::Behind; })
+      .photons;
+}
+
 // Returns a random key that depends on the point of the estimate, but not on the scene's scale.
 std::uint64_t KeyOf(const PhotonNeighbourhood& around) {
   const auto nearness = float(SafeDivide(around.distance2.front(), around.radius2, Real(0)));
@@ -95,13 +108,12 @@ SeenPhotons WithoutHidden(const PhotonMap& map, const PhotonQuery& query,
   seen.before = Only(around, arena, [&](std::uint32_t photon) {
                   return view.LayerOf(photon) == Layer::Before;
                 }).photons;
-  const std::size_t count = seen.before.size(), tried = std::min(count, kTried);
+  const auto suspects = Suspects(view, around, seen.before, arena);
+  const std::size_t count = suspects.size(), tried = std::min(count, kTried);
   for (std::size_t i = 0; i < tried && !seen.areSomeHidden; ++i)
-    seen.areSomeHidden = view.Hides(seen.before[i * count / tried]);
+    seen.areSomeHidden = view.Hides(suspects[i * count / tried]);
   if (!seen.areSomeHidden) return seen;
-  seen.around = Only(around, arena, [&](std::uint32_t photon) {
-    return view.LayerOf(photon) == Layer::Behind || !view.Hides(photon);
-  });
+  seen.around = Only(around, arena, [&](std::uint32_t photon) { return !view.Hides(photon); });
   const Real share = Real(seen.around.photons.size()) / Real(around.photons.size());
   seen.around.share *= std::max(share, kLeastShare);
   return seen;
@@ -119,22 +131,23 @@ PhotonNeighbourhood ProbablySeen(const PhotonMap& map, const PhotonQuery& query,
   };
   const auto before = Only(
       around, arena, [&](std::uint32_t photon) { return view.LayerOf(photon) == Layer::Before; });
-  if (before.photons.empty() || !hidesOneOf(before.photons)) return around;
-  const auto tested = Only(
-      around, arena, [&](std::uint32_t photon) { return view.LayerOf(photon) != Layer::Behind; });
-  if (!hidesOneOf(tested.photons) || !hidesOneOf(tested.photons)) return around;
-  return Only(around, arena,
-              [&](std::uint32_t photon) { return view.LayerOf(photon) == Layer::Behind; });
+  const auto suspects = Suspects(view, around, before.photons, arena);
+  if (suspects.empty() || !hidesOneOf(suspects)) return around;
+  if (!hidesOneOf(around.photons) || !hidesOneOf(around.photons)) return around;
+  PhotonNeighbourhood none = around;
+  none.photons = {}, none.distance2 = {};
+  return none;
 }
 
 bool IsBesideWall(const PhotonMap& map, const PhotonQuery& query, const SeenPhotons& seen,
                   const Walls& walls) {
+  if (seen.areSomeHidden) return true;
   if (seen.before.empty()) return false;
   const View view(map, query, walls);
   const std::uint32_t highest = *std::max_element(
       seen.before.begin(), seen.before.end(),
       [&](std::uint32_t a, std::uint32_t b) { return view.Sine2(a) < view.Sine2(b); });
-  return seen.areSomeHidden || view.HasGroundBehind(highest, std::sqrt(seen.around.radius2));
+  return view.HasGroundBehind(highest, std::sqrt(seen.around.radius2));
 }
 
 }  // namespace exphoton

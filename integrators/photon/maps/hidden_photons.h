@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-2-Clause
 // Estimates of density leave out photons that a wall hides from their point, so that light does not
-// leak through walls. Only photons on or before the tangent plane can be hidden. Those behind it
-// lie round the edge of a solid, and replace the part of the disk that extends over the edge.
-// Most points have no wall in their disk, so the others are only tested where a photon before the
-// plane is hidden. Small objects hide photons too, but light is alike on both of their sides. So
-// hidden photons count like the seen ones, up to the same number.
+// leak through walls. Photons behind the tangent plane may lie round the edge of a solid, where
+// they replace the part of the disk that extends over the edge. A wall hides them only if it blocks
+// a way round this edge too. Most points have no wall in their disk, so all photons are tested only
+// where one before the plane is hidden, or one behind it if there are none before it. Small objects
+// hide photons too, but light is alike on both of their sides. So hidden photons count like the
+// seen ones, up to the same number.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +23,15 @@ struct SeenPhotons {
   bool areSomeHidden = false;
 };
 
-// Returns the photons that the point sees. Tests a few photons before the plane, and all photons if
-// one of these is hidden. Hidden photons count like the seen ones, up to the same number: `share`
+// Returns the photons that the point sees. Tests a few photons as above, and all photons if one of
+// these is hidden. Hidden photons count like the seen ones, up to the same number: `share`
 // of the result is the share of the seen photons, but at least a half.
 SeenPhotons WithoutHidden(const PhotonMap& map, const PhotonQuery& query,
                           const PhotonNeighbourhood& around, const Walls& walls, Arena* arena);
 
-// Tests one photon before the plane, chosen at random by the point. If it is hidden, tests two of
-// the photons before and on the plane, and leaves all of these out if both are hidden. If a share h
-// of all layers is hidden, the light of a share 1 - h^3 counts in the mean over many points.
+// Tests one photon, chosen at random by the point. If it is hidden, tests two of all photons, and
+// leaves all of them out if both are hidden. If a share h of all layers is hidden, the light of a
+// share 1 - h^3 counts in the mean over many points.
 PhotonNeighbourhood ProbablySeen(const PhotonMap& map, const PhotonQuery& query,
                                  const PhotonNeighbourhood& around, const Walls& walls,
                                  Arena* arena);

@@ -115,15 +115,9 @@ PhotonNeighbourhood PhotonMapSet::Around(const Part& part, const ShadingPoint& p
                           diskArea_};
   const PhotonMap& map = Map(part.kind);
   const PhotonNeighbourhood around = FindAt(point.surface.time, map, query, widest_, arena);
-  switch (part.hidden) {
-    case HiddenPhotons::LeftOut:
-      return WithoutHidden(map, query, around, walls_, arena).around;
-    case HiddenPhotons::LeftOutInTheMean:
-      return ProbablySeen(map, query, around, walls_, arena);
-    case HiddenPhotons::Counted:
-      return around;
-  }
-  return around;
+  if (part.hidden == HiddenPhotons::LeftOutInTheMean)
+    return ProbablySeen(map, query, around, walls_, arena);
+  return WithoutHidden(map, query, around, walls_, arena).around;
 }
 
 Spectrum PhotonMapSet::Estimate(const Part& part, const ShadingPoint& point,

@@ -25,7 +25,6 @@ std::vector<PointTree<PhotonBlock>> MakePhotonTrees(std::span<PhotonBuffer> buff
 enum class HiddenPhotons {
   LeftOut,           // as far as they outnumber the seen ones
   LeftOutInTheMean,  // over many points, with fewer rays
-  Counted,           // for points that have no wall in their disks
 };
 
 class PhotonMapSet {

@@ -34,12 +34,18 @@ class Walls {
   // space by kLift times the distance, so that a curved surface does not come between its points.
   // False for places so close together that rounding would decide.
   bool AreBetween(const Place& a, const Place& b) const;
+  // The same for a way round the edge of a solid on which both places may lie: both ends move into
+  // the free space by the whole distance. False if a surface blocks the move of an end.
+  bool AreBetweenRoundAnEdge(const Place& a, const Place& b) const;
   // Returns whether there is a surface close to the tangent plane of a place, at this distance (>
   // 0) in direction `along` (unit, in the plane).
   bool SurfaceContinues(const Place& from, const Vector3& along, Real distance) const;
 
  private:
   bool Blocks(const Ray& ray) const;
+  // Returns whether a surface blocks the segment between the ends, which move by `lift` times their
+  // distance.
+  bool BlockLifted(const Place& a, const Place& b, Real lift) const;
 
   const Scene* scene_ = nullptr;
   bool hasGlass_ = false;

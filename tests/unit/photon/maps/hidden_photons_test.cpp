@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "tests/support/test_scene.h"
 
@@ -129,28 +132,59 @@ TEST(HiddenPhotons, LeaveNothingOnADarkSide) {
   EXPECT_EQ(row.ProbablySeenFrom(Real(.35)).photons.size(), 0u);
 }
 
-// A photon on the top of a block counts at its side, although the block lies between them. A second
+struct AtAnEdge {
+  LoadedScene loaded;
+  Walls walls;
+  PhotonMap map;
+  PhotonQuery query;
+  Arena arena;
+  PhotonNeighbourhood around;
+  SeenPhotons seen;
+
+  AtAnEdge(const std::string& world, const Point3& p, std::span<const Photon> photons)
+      : loaded(SceneOf(world)),
+        walls(*loaded.setup->scene),
+        map(MapOf(photons)),
+        query{p, {1, 0, 0}, 100, 2, true},
+        around(map.Find(query, &arena)),
+        seen(WithoutHidden(map, query, around, walls, &arena)) {}
+  static PhotonMap MapOf(std::span<const Photon> photons) {
+    ThreadPool threads(1);
+    return PhotonMap(PhotonBuffer(photons, 1), threads);
+  }
+  PhotonNeighbourhood Probable() { return ProbablySeen(map, query, around, walls, &arena); }
+};
+
+// Photons on the top of a block count at its side, although the block lies between them. Another
 // photon lies behind a screen before the block. It is hidden, so all photons are tested.
 TEST(HiddenPhotons, CountRoundTheEdgeOfASolid) {
-  const LoadedScene loaded =
-      SceneOf(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + Mesh("0 -4 -4  0 4 -4  0 4 0  0 -4 0") +
-              Mesh(".2 -4 -4  .2 4 -4  .2 4 4  .2 -4 4"));
-  const Photon photons[]{{{Real(-.3), 0, 0}, kRight, Spectrum(1)},
-                         {{Real(.3), 0, Real(-.5)}, kRight, Spectrum(1)}};
-  PhotonBuffer buffer(photons, 1);
-  ThreadPool threads(1);
-  const PhotonMap map(std::move(buffer), threads);
-  Arena arena;
-  const PhotonQuery query{{0, 0, Real(-.2)}, {1, 0, 0}, 100, 2, true};
-  const PhotonNeighbourhood around = map.Find(query, &arena);
-  ASSERT_EQ(around.photons.size(), 2u);
-  const Walls walls(*loaded.setup->scene);
-  const SeenPhotons seen = WithoutHidden(map, query, around, walls, &arena);
-  ASSERT_EQ(seen.around.photons.size(), 1u);
-  EXPECT_LT(map.Position(seen.around.photons[0]).x, 0);
-  const PhotonNeighbourhood probable = ProbablySeen(map, query, around, walls, &arena);
-  ASSERT_EQ(probable.photons.size(), 1u);
-  EXPECT_LT(map.Position(probable.photons[0]).x, 0);
+  std::vector<Photon> photons{{{Real(.3), 0, Real(-.5)}, kRight, Spectrum(1)}};
+  for (int i = 1; i <= 9; ++i)
+    photons.push_back({{Real(-.03) * Real(i), 0, 0}, kRight, Spectrum(1)});
+  AtAnEdge edge(Mesh("-4 -4 0  0 -4 0  0 4 0  -4 4 0") + Mesh("0 -4 -4  0 4 -4  0 4 0  0 -4 0") +
+                    Mesh(".25 -4 -4  .25 4 -4  .25 4 4  .25 -4 4"),
+                {0, 0, Real(-.2)}, photons);
+  ASSERT_EQ(edge.around.photons.size(), 10u);
+  EXPECT_TRUE(edge.seen.areSomeHidden);
+  ASSERT_EQ(edge.seen.around.photons.size(), 9u);
+  for (const std::uint32_t photon : edge.seen.around.photons)
+    EXPECT_LT(edge.map.Position(photon).x, 0);
+  EXPECT_EQ(edge.Probable().photons.size(), 10u);
+}
+
+// The roof goes on over the top of the wall to its other side, and a photon lies on it there.
+TEST(HiddenPhotons, AreThoseOnARoofBehindThePlaneOfItsWall) {
+  const std::string wall = Mesh("0 -4 -4  0 4 -4  0 4 0  0 -4 0");
+  const Photon photon{{Real(-.05), 0, 0}, kRight, Spectrum(1)};
+  AtAnEdge roofed(wall + Mesh("-1 -4 0  4 -4 0  4 4 0  -1 4 0"), {0, 0, Real(-.1)}, {&photon, 1});
+  ASSERT_EQ(roofed.around.photons.size(), 1u);
+  EXPECT_TRUE(roofed.seen.areSomeHidden);
+  EXPECT_EQ(roofed.seen.around.photons.size(), 0u);
+  EXPECT_EQ(roofed.Probable().photons.size(), 0u);
+  EXPECT_TRUE(IsBesideWall(roofed.map, roofed.query, roofed.seen, roofed.walls));
+  AtAnEdge block(wall + Mesh("-1 -4 0  0 -4 0  0 4 0  -1 4 0"), {0, 0, Real(-.1)}, {&photon, 1});
+  EXPECT_FALSE(block.seen.areSomeHidden);
+  EXPECT_EQ(block.Probable().photons.size(), 1u);
 }
 
 // From the lit side of the wall nothing is hidden, but the floor goes on behind the wall, so points
