@@ -109,8 +109,8 @@ TEST_F(StateFileTest, NamesOtherFilesAndVersions) {
   std::string bytes = WriteSome();
   EXPECT_TRUE(Has(Reason("some other file, of another program"), "not the state of"));
   EXPECT_FALSE(IsStateFile(Path()));
-  bytes[16] = 12;
-  EXPECT_TRUE(Has(Reason(bytes), "version 12, and this program reads version 11"));
+  bytes[16] = 13;
+  EXPECT_TRUE(Has(Reason(bytes), "version 13, and this program reads version 12"));
   EXPECT_TRUE(Has(Reason(bytes.substr(0, 17)), "cut off"));
   try {
     const StateFile file(folder_.File("none.state"));
