@@ -10,7 +10,7 @@ namespace exphoton {
 namespace {
 
 constexpr std::uint32_t kNear = 16;            // photons of an estimate
-constexpr std::size_t kMostPlaces = 512;       // where estimates are made
+constexpr std::size_t kMostPlaces = 256;       // where estimates are made
 constexpr std::size_t kLeastPlaces = 16;       // fewer say nothing
 constexpr double kFullShare = 1. / 8;          // from this share on, all photons are wanted
 constexpr std::int64_t kLeastIndirect = 1000;  // fewer photons do not make a map
