@@ -149,9 +149,10 @@ void PhotonTracer::Pass::LimitCaustics(std::int64_t wanted, std::int64_t trained
 }
 
 // Returns the light of the photons so far, whose paths are not guided, where the camera looks;
-// nullptr: no place is known to matter.
+// nullptr: no place is known to matter, or only indirect photons are wanted.
 std::unique_ptr<IndirectShare> PhotonTracer::Pass::MeasureOtherLight() {
-  if (!context_.camera) return nullptr;
+  const bool isAlone = targets_[PhotonKind::Direct] + targets_[PhotonKind::Caustic] == 0;
+  if (!context_.camera || isAlone) return nullptr;
   auto share = std::make_unique<IndirectShare>(
       VisiblePoints(tracer_.scene_, *context_.camera, context_.resolution, context_.seed));
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic}) {
