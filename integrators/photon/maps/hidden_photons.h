@@ -23,15 +23,17 @@ struct SeenPhotons {
   bool areSomeHidden = false;
 };
 
-// Returns the photons that the point sees. Tests a few photons as above, and all photons if one of
-// these is hidden. Hidden photons count like the seen ones, up to the same number: `share`
-// of the result is the share of the seen photons, but at least a half.
+// Returns the photons that the point sees. Tests up to four photons before the plane, or behind it
+// if there are none, and all photons if one of these is hidden. Hidden photons count like the seen
+// ones, up to the same number: `share` of the result is the share of the seen photons, but at least
+// a half.
 SeenPhotons WithoutHidden(const PhotonMap& map, const PhotonQuery& query,
                           const PhotonNeighbourhood& around, const Walls& walls, Arena* arena);
 
-// Tests one photon, chosen at random by the point. If it is hidden, tests two of all photons, and
-// leaves all of them out if both are hidden. If a share h of all layers is hidden, the light of a
-// share 1 - h^3 counts in the mean over many points.
+// Tests one photon before the plane, or behind it if there are none, chosen at random by the point.
+// If it is hidden, tests two of all photons, and leaves all of them out if both are hidden. If a
+// share h of all layers is hidden, the light of a share 1 - h^3 counts in the mean over many
+// points.
 PhotonNeighbourhood ProbablySeen(const PhotonMap& map, const PhotonQuery& query,
                                  const PhotonNeighbourhood& around, const Walls& walls,
                                  Arena* arena);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "integrators/photon/shooting/chunk_memo.h"
@@ -77,8 +78,10 @@ class PhotonTracer::Pass {
   std::int64_t KeptPaths(PhotonKind kind, std::size_t first) const;
   EmissionGuide Learn(PhotonKind kind) const;
   void Discard(PhotonKind kind);
-  std::unique_ptr<IndirectShare> MeasureOtherLight();
-  void LimitIndirect(const IndirectShare& share, std::int64_t trainedPaths);
+  std::vector<SomePhotons> OtherPhotons();
+  IndirectShare ShareAtPoints(const std::vector<SomePhotons>& others,
+                              std::uint32_t cameraRays) const;
+  void LimitIndirect(const std::vector<SomePhotons>& others, std::int64_t trainedPaths);
   void LimitCaustics(std::int64_t wanted, std::int64_t trainedPaths);
 
   const PhotonTracer& tracer_;
@@ -94,6 +97,8 @@ class PhotonTracer::Pass {
   double done_ = 0;  // the largest Done so far: a guide may begin maps anew
   EmissionGuide guide_;
   std::vector<EmissionSample> samples_;
+  std::optional<IndirectShare> share_;
+  double indirectShare_ = 0;                 // the largest bound of LimitIndirect so far
   std::size_t mostSamples_ = kUsualSamples;  // with this number of samples, no more are kept
   std::array<std::int64_t, kPhotonKindCount> firstPaths_{};  // of the photons in each map
   std::int64_t trainedPath_ = 0;  // number of paths before the last change of the guide

@@ -10,7 +10,6 @@
 namespace exphoton {
 namespace {
 
-constexpr std::uint32_t kCameraRays = 1024;
 constexpr int kMaxSpecularBounces = 16;
 constexpr std::uint64_t kFilmKey = 0x7365656e31ull, kLensKey = 0x7365656e32ull,
                         kStreamKey = 0x7365656e33ull, kTimeKey = 0x7365656e34ull;
@@ -64,11 +63,11 @@ CameraSample SampleOf(std::uint32_t i, Point2i size, std::uint64_t seed, bool is
 }  // namespace
 
 std::vector<VisiblePoint> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
-                                        std::uint64_t seed) {
+                                        std::uint64_t seed, std::uint32_t rays) {
   const bool isMoving = scene.Features().Needs(Feature::Motion);
   std::vector<VisiblePoint> points;
   Arena arena;
-  for (std::uint32_t i = 0; i < kCameraRays; ++i) {
+  for (std::uint32_t i = 0; i < rays; ++i) {
     arena.Reset();
     VisiblePointTracer tracer(scene, &arena, HashKey({seed, kStreamKey, i}));
     const auto seen = tracer.Follow(camera.GenerateRay(SampleOf(i, size, seed, isMoving), false));

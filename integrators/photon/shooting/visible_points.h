@@ -4,6 +4,7 @@
 // The result depends on scene, camera, film size and seed alone.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/imaging/film/camera.h"
@@ -16,8 +17,10 @@ struct VisiblePoint {
   Normal3 n;  // unit geometric normal, on the side that the ray came from
 };
 
+inline constexpr std::uint32_t kUsualCameraRays = 1024;
+
 // Returns about one point of each kind per ray that hits. `size`: resolution of the full image.
 std::vector<VisiblePoint> VisiblePoints(const Scene& scene, const Camera& camera, Point2i size,
-                                        std::uint64_t seed);
+                                        std::uint64_t seed, std::uint32_t rays = kUsualCameraRays);
 
 }  // namespace exphoton

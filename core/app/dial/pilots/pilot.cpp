@@ -50,11 +50,15 @@ double GuessedBias(double usedPhotons, double indirectPhotons) {
   return indirectPhotons > 0 ? kOfRoot * std::sqrt(used / indirectPhotons) : 0;
 }
 
-// Returns the photons that a map should have. Where the scene does not say it, `stored` photons are
-// about as many. A map without photons counts as 0.
-double PhotonsOf(const RenderSetup& setup, double stored, const std::string& map) {
+// Returns the photons that a map should have. Where the scene does not say it, the photons that the
+// integrator wanted, or else the stored ones, are about as many. A map without photons counts as 0.
+double PhotonsOf(const RenderSetup& setup, const Statistics& statistics, int maps,
+                 const std::string& map) {
   const double given = GivenNumber(setup, map + "photons");
-  return stored > 0 && given > 0 ? given : stored;
+  const double wanted = CounterOf(statistics, "photons/" + map + " wanted");
+  const double stored = CounterOf(statistics, "photons/" + map + " stored") / std::max(maps, 1);
+  if (!(stored > 0)) return 0;
+  return given > 0 ? given : std::max(wanted, stored);
 }
 
 }  // namespace
@@ -276,9 +280,7 @@ PilotPicture PilotRenderer::Render(const PilotRequest& request) {
   picture.isCutOff = request.isRough && roughPaths_ < FewPaths() &&
                      CounterOf(statistics, "photons/shot") >= double(roughPaths_);
   const auto photonsOf = [&](const std::string& map) {
-    const double stored = CounterOf(statistics, "photons/" + map + " stored");
-    const double wanted = CounterOf(statistics, "photons/" + map + " wanted");
-    return PhotonsOf(setup, wanted > 0 ? wanted : stored / std::max(picture.mapCount, 1), map);
+    return PhotonsOf(setup, statistics, picture.mapCount, map);
   };
   const DialSettings& known = request.settings;
   if (picture.mapCount > 0 && !(known.indirectPhotons + known.causticPhotons > 0)) {

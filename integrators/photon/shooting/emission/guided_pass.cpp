@@ -31,6 +31,9 @@ constexpr double kDefensiveShare = .2;
 // reflected any further, or maxdist would follow these.
 constexpr double kDefensiveIndirectShare = .05;
 
+// These show a dark room that fills a thousandth of the picture.
+constexpr std::uint32_t kManyCameraRays = 16 * kUsualCameraRays;
+
 // Returns the sum of the luminances.
 double PowerOf(std::span<const PhotonRecord> photons) {
   double sum = 0;
@@ -134,9 +137,9 @@ void PhotonTracer::Pass::LimitCaustics(std::int64_t wanted, std::int64_t trained
   PhotonBuffer& indirect = result_[PhotonKind::Indirect];
   if (indirect.photons.Size() == 0) return;
   // A map with fewer indirect photons (LimitIndirect) is no reason for fewer caustic ones.
-  const double full = double(wantedIndirect_) / double(targets_[PhotonKind::Indirect]);
-  const double perIndirect = PowerOf(indirect.photons.Records()) / double(indirect.paths) /
-                             (full * double(indirect.photons.Size()));
+  const double count =
+      double(result_.enoughIndirect > 0 ? wantedIndirect_ : std::int64_t(indirect.photons.Size()));
+  const double perIndirect = PowerOf(indirect.photons.Records()) / double(indirect.paths) / count;
   double power = 0;
   for (const PhotonChunk& chunk : chunks_) power += PowerOf(chunk.photons[kCaustic]);
   const double enough =
@@ -148,29 +151,47 @@ void PhotonTracer::Pass::LimitCaustics(std::int64_t wanted, std::int64_t trained
   targets_.counts[kCaustic] = isChosen ? result_.enoughCaustics : wanted;
 }
 
-// Returns the light of the photons so far, whose paths are not guided, where the camera looks;
-// nullptr: no place is known to matter, or only indirect photons are wanted.
-std::unique_ptr<IndirectShare> PhotonTracer::Pass::MeasureOtherLight() {
+// Returns direct and caustic photons of the paths so far, which are not guided; none: no place is
+// known to matter, or only indirect photons are wanted. Where shapes move, photons and visible
+// points are not in the same pose.
+std::vector<SomePhotons> PhotonTracer::Pass::OtherPhotons() {
   const bool isAlone = targets_[PhotonKind::Direct] + targets_[PhotonKind::Caustic] == 0;
-  if (!context_.camera || isAlone) return nullptr;
-  auto share = std::make_unique<IndirectShare>(
-      VisiblePoints(tracer_.scene_, *context_.camera, context_.resolution, context_.seed));
+  if (!context_.camera || isAlone || tracer_.shapesMove_) return {};
+  std::vector<SomePhotons> others;
   for (const PhotonKind kind : {PhotonKind::Direct, PhotonKind::Caustic}) {
-    SomePhotons photons;
+    SomePhotons& photons = others.emplace_back();
     photons.Add(result_[kind].photons.Records());
     photons.AddPaths(result_[kind].paths);
-    share->AddLight(tracer_.scene_, photons, context_.threads);
   }
+  return others;
+}
+
+IndirectShare PhotonTracer::Pass::ShareAtPoints(const std::vector<SomePhotons>& others,
+                                                std::uint32_t cameraRays) const {
+  IndirectShare share(VisiblePoints(tracer_.scene_, *context_.camera, context_.resolution,
+                                    context_.seed, cameraRays));
+  for (const SomePhotons& photons : others)
+    share.AddLight(tracer_.scene_, photons, context_.threads);
   return share;
 }
 
-// Finds the number of indirect photons that are worth their time, from one round of training.
-void PhotonTracer::Pass::LimitIndirect(const IndirectShare& share, std::int64_t trainedPaths) {
+// Finds the number of indirect photons that are worth their time, from one round of training. Only
+// many points show that no dark room is among them, and they are sought where few points see none.
+// Rare heavy photons make most estimates too low, so the largest one of all rounds counts.
+void PhotonTracer::Pass::LimitIndirect(const std::vector<SomePhotons>& others,
+                                       std::int64_t trainedPaths) {
   SomePhotons photons;
   photons.AddPaths(trainedPaths);
   for (const PhotonChunk& chunk : chunks_) photons.Add(chunk.photons[kIndirect]);
-  const std::int64_t enough =
-      EnoughIndirectPhotons(share.Of(photons, context_.threads), wantedIndirect_);
+  if (!photons.AreMany()) return;
+  const auto bound = [&] { return share_->UpperBound(photons, context_.threads); };
+  if (!share_) {
+    share_ = ShareAtPoints(others, kUsualCameraRays);
+    if (EnoughIndirectPhotons(bound(), wantedIndirect_) < wantedIndirect_)
+      share_ = ShareAtPoints(others, kManyCameraRays);
+  }
+  indirectShare_ = std::max(indirectShare_, bound());
+  const std::int64_t enough = EnoughIndirectPhotons(indirectShare_, wantedIndirect_);
   targets_[PhotonKind::Indirect] = enough;
   result_.enoughIndirect = enough < wantedIndirect_ ? enough : 0;
 }
@@ -180,7 +201,7 @@ void PhotonTracer::Pass::LimitIndirect(const IndirectShare& share, std::int64_t 
 void PhotonTracer::Pass::Train(PhotonKind kind) {
   const std::int64_t wanted = targets_[kind];
   const bool isIndirect = kind == PhotonKind::Indirect;
-  const auto share = isIndirect ? MeasureOtherLight() : nullptr;
+  const auto others = isIndirect ? OtherPhotons() : std::vector<SomePhotons>();
   Discard(kind);
   // If enough of the first samples kept photons, the rest makes room for new samples.
   std::size_t used = kUsualSamples;
@@ -201,7 +222,7 @@ void PhotonTracer::Pass::Train(PhotonKind kind) {
     result_.guidedPaths += paths;
     result_.trainingPaths += paths;
     if (kind == PhotonKind::Caustic) LimitCaustics(wanted, paths);
-    if (share) LimitIndirect(*share, paths);
+    if (!others.empty()) LimitIndirect(others, paths);
     guide_ = Learn(kind);
     const double needed = double(targets_[kind]) * double(paths) / double(stored + 1);
     if (kMaxTrainingShare * needed < double(2 * paths) || 2 * paths > MaxTrainingPaths() ||

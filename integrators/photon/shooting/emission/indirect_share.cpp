@@ -10,8 +10,7 @@ namespace exphoton {
 namespace {
 
 constexpr std::uint32_t kNear = 16;            // photons of an estimate
-constexpr std::size_t kMostPlaces = 256;       // where estimates are made
-constexpr std::size_t kLeastPlaces = 16;       // fewer say nothing
+constexpr double kUnseenPlaces = 4;            // which may have indirect light alone
 constexpr double kFullShare = 1. / 8;          // from this share on, all photons are wanted
 constexpr std::int64_t kLeastIndirect = 1000;  // fewer photons do not make a map
 
@@ -98,8 +97,7 @@ void SomePhotons::Add(std::span<const PhotonRecord> photons) {
 }
 
 IndirectShare::IndirectShare(std::span<const VisiblePoint> points) {
-  const std::size_t step = 1 + points.size() / kMostPlaces;
-  for (std::size_t i = 0; i < points.size(); i += step) places_.push_back({points[i]});
+  for (const VisiblePoint& point : points) places_.push_back({point});
 }
 
 void IndirectShare::AddLight(const Scene& scene, const SomePhotons& photons, ThreadPool& threads) {
@@ -107,11 +105,10 @@ void IndirectShare::AddLight(const Scene& scene, const SomePhotons& photons, Thr
   for (Place& place : places_) place.otherLight += light.At(place.point, scene);
 }
 
-double IndirectShare::Of(const SomePhotons& photons, ThreadPool& threads) const {
+double IndirectShare::UpperBound(const SomePhotons& photons, ThreadPool& threads) const {
   const RoughIrradiance indirect(photons, threads);
-  if (!indirect.IsKnown()) return 1;
-  double sum = 0;
-  std::size_t lit = 0;
+  double sum = kUnseenPlaces;
+  double lit = 0;
   for (const Place& place : places_) {
     const double ofIndirect = indirect.Around(place.point), all = ofIndirect + place.otherLight;
     if (!(all > 0)) continue;
@@ -119,7 +116,7 @@ double IndirectShare::Of(const SomePhotons& photons, ThreadPool& threads) const 
     sum += share * share;
     ++lit;
   }
-  return lit < kLeastPlaces ? 1 : std::sqrt(sum / double(lit));
+  return sum < lit ? std::sqrt(sum / lit) : 1;
 }
 
 std::int64_t EnoughIndirectPhotons(double share, std::int64_t wanted) {

@@ -23,6 +23,8 @@ class SomePhotons {
   void Add(std::span<const PhotonRecord> photons);
   void AddPaths(std::int64_t paths) { paths_ += double(paths); }
   std::size_t Size() const { return records_.size(); }
+  // A young guide leaves few photons, of which few are heavy. These say little.
+  bool AreMany() const { return Size() >= 256; }
   std::span<const PhotonRecord> Records() const { return records_; }
   // Returns the number by which sums over these photons are divided.
   double Paths() const { return paths_ * double(Size()) / total_; }
@@ -35,16 +37,16 @@ class SomePhotons {
 // IndirectShare knows the direct light and the caustics at visible points.
 class IndirectShare {
  public:
-  // `points` are thinned.
   explicit IndirectShare(std::span<const VisiblePoint> points);
 
   // Adds light that is not indirect. Its paths should not be guided, so that weak light has
   // photons.
   void AddLight(const Scene& scene, const SomePhotons& photons, ThreadPool& threads);
-  // Returns the root of the mean square of E_i / E over the points that light reaches. E is the
-  // irradiance of all light, and E_i is the part of these indirect photons. In [0,1]; it is 1 if
-  // there are too few points or photons to know it.
-  double Of(const SomePhotons& indirect, ThreadPool& threads) const;
+  // Returns an upper bound of the root of the mean square of E_i / E over the points that light
+  // reaches. E is the irradiance of all light, and E_i is the part of these indirect photons. Four
+  // points that no ray has met count as if they had indirect light alone: a small dark room. In
+  // [0,1]. The photons must be many.
+  double UpperBound(const SomePhotons& indirect, ThreadPool& threads) const;
 
  private:
   struct Place {
